@@ -1,0 +1,131 @@
+#include "blobtree/lattice.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+
+namespace isofield::blobtree {
+namespace {
+
+constexpr std::size_t kNotStored = ~std::size_t{0};
+
+bool has_same_code(const Instruction& a, const Instruction& b) { return a.code == b.code && a.index == b.index; }
+
+class Culler {
+ public:
+  Culler(const Tape& tape, const CullRequest& request) : tape_(tape), request_(request), pruner_(tape) {
+    for (int a = 0; a < 3; ++a) {
+      bricks_[a] = (request.lattice.cells[a] + kBrickCells - 1) / kBrickCells;
+    }
+  }
+
+  absl::StatusOr<BrickList> run() {
+    std::uint32_t level = 0;
+    while ((std::uint64_t{1} << level) < *std::max_element(bricks_.begin(), bricks_.end())) ++level;
+    arena_ = tape_.code;
+    levels_.push_back({0, arena_.size(), kNotStored});
+    stack_.push_back({level, 0, 0, 0, 0});
+    std::uint32_t ticks = 0;
+    while (!stack_.empty()) {
+      if ((++ticks & 0x3ff) == 0 && request_.cancelled && request_.cancelled()) {
+        return absl::CancelledError("the request was cancelled");
+      }
+      const Cell cell = stack_.back();
+      stack_.pop_back();
+      visit(cell);
+      if (list_.bricks.size() > request_.max_bricks) {
+        return absl::ResourceExhaustedError(absl::StrCat("more than ", request_.max_bricks, " bricks"));
+      }
+    }
+    return std::move(list_);
+  }
+
+ private:
+  // A cell of the hierarchy: 2^level bricks along each edge.
+  struct Cell {
+    std::uint32_t level, x, y, z;
+    std::size_t parent;  // in levels_: the tape it starts from
+  };
+  // A tape on the way down, shared by the children of one cell.
+  struct Level {
+    std::size_t begin, count;  // in arena_
+    std::size_t stored;        // where it lies in the result, or kNotStored
+  };
+
+  Box box_of(const Cell& cell) const {
+    const double bricks = static_cast<double>(std::uint64_t{1} << cell.level) * kBrickCells;
+    const dvec3 step{request_.lattice.spacing.x * bricks, request_.lattice.spacing.y * bricks,
+                     request_.lattice.spacing.z * bricks};
+    const dvec3& o = request_.lattice.origin;
+    return {{o.x + step.x * cell.x, o.y + step.y * cell.y, o.z + step.z * cell.z},
+            {o.x + step.x * (cell.x + 1), o.y + step.y * (cell.y + 1), o.z + step.z * (cell.z + 1)}};
+  }
+
+  bool is_kept(const Interval& range) const {
+    if (request_.keep == Keep::kSupport) return range.hi > 0;
+    return range.hi >= request_.iso && range.lo <= request_.iso;
+  }
+
+  void visit(const Cell& cell) {
+    // Cells are visited depth first, so what lies above the parent's tape in the arena is done with.
+    levels_.resize(cell.parent + 1);
+    const Level parent = levels_[cell.parent];
+    const std::size_t begin = parent.begin + parent.count;
+    arena_.resize(begin);
+    const Interval range = pruner_.prune(arena_, parent.begin, parent.count, box_of(cell), arena_);
+    if (!is_kept(range)) return;
+    const std::size_t count = arena_.size() - begin;
+    // Nothing dropped out: go on with the parent's, which may be in the result already.
+    const bool same = count == parent.count && std::equal(arena_.begin() + begin, arena_.end(),
+                                                          arena_.begin() + parent.begin, has_same_code);
+    if (cell.level == 0) {
+      if (same) {
+        if (parent.stored == kNotStored) levels_[cell.parent].stored = store(parent.begin, parent.count);
+        add_brick(cell, levels_[cell.parent].stored, count);
+      } else {
+        add_brick(cell, store(begin, count), count);
+      }
+      return;
+    }
+    std::size_t level = cell.parent;
+    if (!same) {
+      levels_.push_back({begin, count, kNotStored});
+      level = levels_.size() - 1;
+    } else {
+      arena_.resize(begin);
+    }
+    const std::uint32_t half = std::uint32_t{1} << (cell.level - 1);
+    for (int child = 7; child >= 0; --child) {
+      const Cell c{cell.level - 1, 2 * cell.x + (child & 1), 2 * cell.y + (child >> 1 & 1), 2 * cell.z + (child >> 2),
+                   level};
+      if (std::uint64_t{c.x} * half < bricks_[0] && std::uint64_t{c.y} * half < bricks_[1] &&
+          std::uint64_t{c.z} * half < bricks_[2]) {
+        stack_.push_back(c);
+      }
+    }
+  }
+
+  std::size_t store(std::size_t begin, std::size_t count) {
+    const std::size_t at = list_.code.size();
+    list_.code.insert(list_.code.end(), arena_.begin() + begin, arena_.begin() + begin + count);
+    return at;
+  }
+  void add_brick(const Cell& cell, std::size_t at, std::size_t count) {
+    list_.bricks.push_back({cell.x, cell.y, cell.z, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(count)});
+  }
+
+  const Tape& tape_;
+  const CullRequest& request_;
+  Pruner pruner_;
+  std::array<std::uint32_t, 3> bricks_{};
+  std::vector<Instruction> arena_;
+  std::vector<Level> levels_;
+  std::vector<Cell> stack_;
+  BrickList list_;
+};
+
+}  // namespace
+
+absl::StatusOr<BrickList> cull(const Tape& tape, const CullRequest& request) { return Culler(tape, request).run(); }
+
+}  // namespace isofield::blobtree

@@ -1,0 +1,151 @@
+#include "blobtree/leaf_placer.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isofield::blobtree {
+namespace {
+
+// Half the extents of the support in the shape's own frame, and its centre.
+struct LocalSupport {
+  dvec3 centre, half;
+};
+
+LocalSupport local_support(Shape shape, const ShapeSize& s, double h) {
+  switch (shape) {
+    case Shape::kSphere:
+      return {{}, {s[0] + h, s[0] + h, s[0] + h}};
+    case Shape::kSegment: {
+      const double r = std::max(s[1], s[2]) + h;
+      const double low = std::min(-s[1], s[0] - s[2]) - h, high = std::max(s[1], s[0] + s[2]) + h;
+      return {{0, 0, (low + high) / 2}, {r, r, (high - low) / 2}};
+    }
+    case Shape::kBox:
+      return {{}, {s[0] + h, s[1] + h, s[2] + h}};
+    case Shape::kCylinder:
+      return {{}, {s[1] + h, s[1] + h, s[0] + h}};
+    case Shape::kTorus:
+      return {{}, {s[0] + s[1] + h, s[0] + s[1] + h, s[1] + h}};
+    case Shape::kEllipsoid: {
+      const double grow = 1 + h / std::min({s[0], s[1], s[2]});
+      return {{}, {s[0] * grow, s[1] * grow, s[2] * grow}};
+    }
+  }
+  return {};
+}
+
+bool is_round(Shape shape) { return shape == Shape::kSphere || shape == Shape::kEllipsoid; }
+
+// Half extents of the image of the local support. Round supports fill less of their box than its corners span.
+dvec3 world_half(const Affine& to_world, const dvec3& half, bool round) {
+  const auto extent = [&](const dvec3& row) {
+    const dvec3 v{row.x * half.x, row.y * half.y, row.z * half.z};
+    return round ? length(v) : std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+  };
+  return {extent(to_world.linear[0]), extent(to_world.linear[1]), extent(to_world.linear[2])};
+}
+
+Box segment_support(const Leaf& leaf, const Affine& to_world) {
+  // The hull of two spheres: far tighter than the box of a tilted local box.
+  const dvec3 b = to_world.point({0, 0, leaf.size[0]});
+  const auto ball = [&](const dvec3& c, double r) {
+    const dvec3 half = world_half(to_world, {r, r, r}, true);
+    return Box{c - half, c + half};
+  };
+  Box box = ball(leaf.anchor, leaf.size[1] + leaf.range);
+  box.add(ball(b, leaf.size[2] + leaf.range));
+  return box;
+}
+
+// Room for the rounding of coordinates and lengths to float32 on the device.
+void pad(Box& box) {
+  const auto grow = [](double& low, double& high) {
+    const double room = 1e-6 * std::max(std::abs(low), std::abs(high));
+    low -= room;
+    high += room;
+  };
+  grow(box.min.x, box.max.x);
+  grow(box.min.y, box.max.y);
+  grow(box.min.z, box.max.z);
+}
+
+}  // namespace
+
+std::uint32_t leaf_record_size(Operand operand) {
+  switch (operand) {
+    case Operand::kSphere:
+      return 2;
+    case Operand::kSegment:
+      return 3;
+    case Operand::kBox:
+      return 5;
+    default:
+      return 4;
+  }
+}
+
+absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
+  Affine place = to_world.after(node.frame);
+  Leaf leaf;
+  leaf.shape = node.shape;
+  leaf.size = node.size;
+  leaf.range = node.range;
+  const Affine::Stretch stretch = place.stretch();
+  const bool similar = stretch.most - stretch.least <= 1e-9 * stretch.most;
+  if (similar) {
+    // Distances scale with the map: scale the lengths instead and keep the placement rigid.
+    const double factor = stretch.most;
+    for (double& length : leaf.size) length *= factor;
+    leaf.range *= factor;
+    for (dvec3& row : place.linear) row = row * (1 / factor);
+  }
+  const std::optional<Affine> inverse = place.inverse();
+  const auto fits = [](double length) { return length >= kMinLength && length <= kMaxCoordinate; };
+  const auto near_enough = [](double x) { return std::abs(x) <= kMaxCoordinate; };
+  if (!inverse || !fits(leaf.range) || !near_enough(place.offset.x) || !near_enough(place.offset.y) ||
+      !near_enough(place.offset.z) || !fits(leaf.range * stretch.most) || !fits(leaf.range * stretch.least)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(node.path, ": the transforms above scale it by ", stretch.least, " to ", stretch.most,
+                     " and place it at (", place.offset.x, ", ", place.offset.y, ", ", place.offset.z,
+                     "): expected lengths within [", kMinLength, ", ", kMaxCoordinate, "] and coordinates of at most ",
+                     kMaxCoordinate));
+  }
+  leaf.anchor = place.offset;
+  leaf.to_local = {inverse->linear, {}};
+  leaf.stretch = similar ? 1 : 1 / stretch.least;
+
+  switch (leaf.shape) {
+    case Shape::kSphere:
+      leaf.operand = similar ? Operand::kSphere : Operand::kEllipsoid;
+      break;
+    case Shape::kSegment:
+      leaf.operand = similar ? Operand::kSegment : Operand::kAffineSegment;
+      break;
+    case Shape::kBox:
+      leaf.operand = Operand::kBox;
+      break;
+    case Shape::kCylinder:
+      leaf.operand = Operand::kCylinder;
+      break;
+    case Shape::kTorus:
+      leaf.operand = Operand::kTorus;
+      break;
+    case Shape::kEllipsoid:
+      leaf.operand = Operand::kEllipsoid;
+      break;
+  }
+  if (leaf.shape == Shape::kSegment) {
+    leaf.support = segment_support(leaf, place);
+  } else {
+    const LocalSupport local = local_support(leaf.shape, leaf.size, leaf.range);
+    const dvec3 centre = place.point(local.centre);
+    const dvec3 half = world_half(place, local.half, is_round(leaf.shape));
+    leaf.support = {centre - half, centre + half};
+  }
+  pad(leaf.support);
+  return leaf;
+}
+
+}  // namespace isofield::blobtree

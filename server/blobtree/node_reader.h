@@ -1,0 +1,17 @@
+// One node of a Scene message, its numbers checked and its defaults filled in. References are left to scene_reader.
+#pragma once
+
+#include <absl/status/status.h>
+
+#include "blobtree/scene.h"
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield::blobtree {
+
+// Fills everything of `node` but `children`; node.path is set and used in errors.
+absl::Status read_node(const v1::Node& message, Node& node);
+
+// The children that a node refers to, in order.
+std::vector<const std::string*> child_references(const v1::Node& message);
+
+}  // namespace isofield::blobtree

@@ -1,0 +1,158 @@
+#include "blobtree/scene_reader.h"
+
+#include <absl/container/flat_hash_map.h>
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_cat.h>
+#include <absl/strings/string_view.h>
+
+#include "blobtree/node_reader.h"
+
+namespace isofield::blobtree {
+namespace {
+
+std::string path_of(int index, const v1::Node& node) {
+  return node.name().empty() ? absl::StrCat("nodes[", index, "]")
+                             : absl::StrCat("nodes[", index, "] '", node.name(), "'");
+}
+
+// Names of nodes, and what "name" or "#i" refers to.
+class References {
+ public:
+  absl::Status add(const v1::Node& node, std::uint32_t index, const std::string& path) {
+    const std::string& name = node.name();
+    if (name.empty()) return absl::OkStatus();
+    if (name[0] == '#' || name.find('.') != std::string::npos || name.size() > 256) {
+      return absl::InvalidArgumentError(absl::StrCat(
+          path, ".name: expected a name of at most 256 characters that does not start with '#' and holds no '.'"));
+    }
+    const auto [place, added] = names_.emplace(name, index);
+    if (!added) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(path, ".name = '", name, "': already the name of nodes[", place->second, "]"));
+    }
+    return absl::OkStatus();
+  }
+
+  // -1: refers to nothing.
+  std::int64_t find(absl::string_view reference, std::size_t node_count) const {
+    if (!reference.empty() && reference[0] == '#') {
+      std::uint32_t index;
+      return absl::SimpleAtoi(reference.substr(1), &index) && index < node_count ? index : -1;
+    }
+    const auto it = names_.find(reference);
+    return it == names_.end() ? -1 : it->second;
+  }
+
+ private:
+  absl::flat_hash_map<std::string, std::uint32_t> names_;
+};
+
+enum class Mark : char { kNew, kOpen, kDone };
+
+// Appends `start` and all below it to `order`, children first; refuses cycles.
+absl::Status sort_from(const Scene& scene, std::uint32_t start, std::vector<Mark>& marks,
+                       std::vector<std::uint32_t>& order) {
+  struct Visit {
+    std::uint32_t node;
+    std::size_t next_child;
+  };
+  if (marks[start] == Mark::kDone) return absl::OkStatus();
+  std::vector<Visit> stack{{start, 0}};
+  marks[start] = Mark::kOpen;
+  while (!stack.empty()) {
+    Visit& top = stack.back();
+    const Node& node = scene.nodes[top.node];
+    if (top.next_child == node.children.size()) {
+      marks[top.node] = Mark::kDone;
+      order.push_back(top.node);
+      stack.pop_back();
+      continue;
+    }
+    const std::uint32_t child = node.children[top.next_child++];
+    if (marks[child] == Mark::kOpen) {
+      return absl::InvalidArgumentError(absl::StrCat(node.path, ".children: ", scene.nodes[child].path,
+                                                     " closes a cycle; expected a graph without cycles"));
+    }
+    if (marks[child] == Mark::kNew) {
+      marks[child] = Mark::kOpen;
+      stack.push_back({child, 0});
+    }
+  }
+  return absl::OkStatus();
+}
+
+// Cycles that the root does not reach are refused too: the file is wrong, though this model would not show it.
+absl::Status sort_nodes(Scene& scene) {
+  std::vector<Mark> marks(scene.nodes.size(), Mark::kNew);
+  if (absl::Status s = sort_from(scene, scene.root, marks, scene.order); !s.ok()) return s;
+  std::vector<std::uint32_t> unreached;
+  for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
+    if (absl::Status s = sort_from(scene, i, marks, unreached); !s.ok()) return s;
+  }
+  return absl::OkStatus();
+}
+
+// What the root stands for when every use of a shared node counts.
+absl::Status check_instances(const Scene& scene, const SceneLimits& limits) {
+  struct Count {
+    std::uint64_t primitives, nodes;
+  };
+  std::vector<Count> counts(scene.nodes.size());
+  for (const std::uint32_t index : scene.order) {
+    const Node& node = scene.nodes[index];
+    Count count{node.kind == NodeKind::kPrimitive ? 1u : 0u, 1};
+    for (const std::uint32_t child : node.children) {
+      count.primitives += counts[child].primitives;
+      count.nodes += counts[child].nodes;
+    }
+    if (count.primitives > limits.max_primitives || count.nodes > 8 * limits.max_primitives) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(node.path, " stands for ", count.primitives, " primitives and ", count.nodes,
+                       " nodes once shared nodes are counted at every use: expected at most ", limits.max_primitives,
+                       " and ", 8 * limits.max_primitives));
+    }
+    counts[index] = count;
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits) {
+  const auto count = static_cast<std::size_t>(message.nodes_size());
+  if (count == 0) return absl::InvalidArgumentError("nodes = []: expected at least 1 node");
+  if (count > limits.max_nodes) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("nodes: ", count, " nodes, expected at most ", limits.max_nodes));
+  }
+  Scene scene;
+  scene.nodes.resize(count);
+  References references;
+  for (std::size_t i = 0; i < count; ++i) {
+    Node& node = scene.nodes[i];
+    node.path = path_of(static_cast<int>(i), message.nodes(i));
+    if (absl::Status s = references.add(message.nodes(i), i, node.path); !s.ok()) return s;
+    if (absl::Status s = read_node(message.nodes(i), node); !s.ok()) return s;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const std::string* reference : child_references(message.nodes(i))) {
+      const std::int64_t child = references.find(*reference, count);
+      if (child < 0) {
+        return absl::InvalidArgumentError(absl::StrCat(scene.nodes[i].path, ": child '", *reference,
+                                                       "' is no node: expected a node's name, or #0 to #", count - 1));
+      }
+      scene.nodes[i].children.push_back(static_cast<std::uint32_t>(child));
+    }
+  }
+  const std::int64_t root = message.root().empty() ? count - 1 : references.find(message.root(), count);
+  if (root < 0) {
+    return absl::InvalidArgumentError(absl::StrCat("root = '", message.root(),
+                                                   "' is no node: expected a node's name, or #0 to #", count - 1));
+  }
+  scene.root = static_cast<std::uint32_t>(root);
+  if (absl::Status s = sort_nodes(scene); !s.ok()) return s;
+  if (absl::Status s = check_instances(scene, limits); !s.ok()) return s;
+  return scene;
+}
+
+}  // namespace isofield::blobtree

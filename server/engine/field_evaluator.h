@@ -1,0 +1,38 @@
+// Values and gradients of resident scenes, at points and on lattices.
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <functional>
+#include <span>
+
+#include "blobtree/lattice.h"
+#include "engine/kernel_cache.h"
+#include "engine/resident_scene.h"
+
+namespace isofield::engine {
+
+enum class Quantity { kValue, kValueAndGradient };
+inline std::size_t components(Quantity q) { return q == Quantity::kValue ? 1 : 4; }
+
+// Thread-safe.
+class FieldEvaluator {
+ public:
+  FieldEvaluator(gpu::Device& device, KernelCache& kernels) : device_(device), kernels_(kernels) {}
+
+  // xyz: 3 finite numbers a point; out: components(quantity) numbers a point.
+  absl::Status evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,
+                        std::span<float> out);
+
+  // The points origin + (i, j, k) * spacing with k from first_layer to the end of `out`, which holds whole layers, x
+  // fastest. lattice.cells counts the points. `bricks` is cull(...) of that lattice with Keep::kSupport.
+  absl::Status evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,
+                               const blobtree::BrickList& bricks, std::uint32_t first_layer, Quantity quantity,
+                               std::span<float> out);
+
+ private:
+  gpu::Device& device_;
+  KernelCache& kernels_;
+};
+
+}  // namespace isofield::engine

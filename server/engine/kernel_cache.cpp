@@ -1,0 +1,63 @@
+#include "engine/kernel_cache.h"
+
+namespace isofield::engine {
+namespace {
+
+using blobtree::Operand;
+using blobtree::Operator;
+
+std::uint32_t bit(Operand o) { return 1u << static_cast<std::uint32_t>(o); }
+std::uint32_t bit(Operator o) { return 1u << static_cast<std::uint32_t>(o); }
+
+// Few distinct depths, so that scenes share kernels.
+std::uint32_t round_depth(std::uint32_t depth) {
+  for (const std::uint32_t d : {0u, 1u, 2u, 4u, 8u}) {
+    if (depth <= d) return d;
+  }
+  return blobtree::kMaxStackDepth;
+}
+
+}  // namespace
+
+KernelKind KernelKind::of(const blobtree::Tape& tape) {
+  KernelKind kind{tape.operand_set, tape.operator_set | bit(Operator::kPush), round_depth(tape.stack_depth)};
+  // Pruning may turn an exchanged difference with nothing to take away into a clamp.
+  if (kind.operator_set & bit(Operator::kSubtractFrom)) kind.operator_set |= bit(Operator::kSubtract);
+  return kind;
+}
+
+KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
+  return {tape.operand_set & ~bit(Operand::kPop), bit(Operator::kPush), 0};
+}
+
+absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
+  const Key key{reinterpret_cast<std::uintptr_t>(shader.data()), kind.operand_set, kind.operator_set,
+                kind.stack_depth};
+  std::promise<Compiled> promise;
+  std::shared_future<Compiled> kernel;
+  bool compiles = false;
+  {
+    const std::lock_guard lock(mutex_);
+    auto [it, added] = kernels_.try_emplace(key);
+    if (added) {
+      it->second = promise.get_future().share();
+      compiles = true;
+    }
+    kernel = it->second;
+  }
+  if (compiles) {
+    const std::array<std::uint32_t, 3> constants{kind.operand_set, kind.operator_set, kind.stack_depth};
+    auto pipeline = gpu::Pipeline::create(device_, shader, constants);
+    if (!pipeline.ok()) {
+      // A later request may find the memory that was missing.
+      const std::lock_guard lock(mutex_);
+      kernels_.erase(key);
+    }
+    promise.set_value(pipeline.ok() ? Compiled(*std::move(pipeline)) : Compiled(pipeline.status()));
+  }
+  const Compiled& compiled = kernel.get();
+  if (!compiled.ok()) return compiled.status();
+  return compiled->get();
+}
+
+}  // namespace isofield::engine

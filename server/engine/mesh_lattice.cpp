@@ -1,0 +1,132 @@
+#include "engine/mesh_lattice.h"
+
+#include <absl/container/flat_hash_map.h>
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace isofield::engine {
+namespace {
+
+using blobtree::Box;
+using blobtree::Brick;
+using blobtree::BrickList;
+using blobtree::CullRequest;
+using blobtree::dvec3;
+using blobtree::Lattice;
+
+double longest_edge(const Box& box) {
+  return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+}
+
+absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshRequest& request, const Lattice& lattice,
+                                       std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
+  return blobtree::cull(tape, CullRequest{.lattice = lattice,
+                                          .keep = blobtree::Keep::kSurface,
+                                          .iso = request.iso,
+                                          .max_bricks = max_bricks,
+                                          .cancelled = cancelled});
+}
+
+// The smallest cell size, to a few per cent, whose bricks are admitted.
+absl::StatusOr<double> smallest_fitting_cell(const blobtree::Tape& tape, MeshRequest request, std::uint64_t max_bricks,
+                                             const std::function<bool()>& cancelled) {
+  const auto bricks_at = [&](double cell) -> absl::StatusOr<std::uint64_t> {
+    request.cell_size = cell;
+    const auto lattice = mesh_lattice(tape, request);
+    if (!lattice.ok()) return max_bricks + 1;
+    const auto list = cull_surface(tape, request, *lattice, max_bricks, cancelled);
+    if (absl::IsResourceExhausted(list.status())) return max_bricks + 1;
+    if (!list.ok()) return list.status();
+    return list->bricks.size();
+  };
+  double too_small = request.cell_size, fits = too_small;
+  for (;;) {
+    fits *= 2;
+    const auto bricks = bricks_at(fits);
+    if (!bricks.ok()) return bricks.status();
+    if (*bricks <= max_bricks) break;
+    too_small = fits;
+  }
+  while (fits / too_small > 1.04) {
+    const double middle = std::sqrt(fits * too_small);
+    const auto bricks = bricks_at(middle);
+    if (!bricks.ok()) return bricks.status();
+    (*bricks <= max_bricks ? fits : too_small) = middle;
+  }
+  // Two digits more than the search is worth, rounded up.
+  const double unit = std::pow(10, std::floor(std::log10(fits)) - 3);
+  return std::ceil(fits / unit) * unit;
+}
+
+}  // namespace
+
+absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request) {
+  const double cell = request.cell_size;
+  const Box bounds = request.bounds.value_or(tape.support);
+  const double most = std::max({longest_edge(bounds) / cell,
+                                request.bounds ? 0.0 : std::abs(bounds.min.x) / cell / 1024});
+  if (most > kMaxCellsPerAxis - 4) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("cell_size = ", cell, " makes ", most, " cells along an edge of ", longest_edge(bounds),
+                     "; at most ", kMaxCellsPerAxis - 4, " are admitted"));
+  }
+  Lattice lattice;
+  lattice.spacing = {cell, cell, cell};
+  const auto along = [&](double low, double high, double& origin) {
+    if (request.bounds) {
+      origin = low;
+      return static_cast<std::uint32_t>(std::max(std::ceil((high - low) / cell - 1e-9), 1.0));
+    }
+    // One cell of room on either side: the outermost corners are outside.
+    origin = (std::floor(low / cell) - 1) * cell;
+    return static_cast<std::uint32_t>(std::ceil((high - origin) / cell)) + 1;
+  };
+  lattice.cells = {along(bounds.min.x, bounds.max.x, lattice.origin.x),
+                   along(bounds.min.y, bounds.max.y, lattice.origin.y),
+                   along(bounds.min.z, bounds.max.z, lattice.origin.z)};
+  return lattice;
+}
+
+absl::StatusOr<BrickList> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request, const Lattice& lattice,
+                                         std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
+  absl::StatusOr<BrickList> list = cull_surface(tape, request, lattice, max_bricks, cancelled);
+  if (!absl::IsResourceExhausted(list.status())) return list;
+  const auto fits = smallest_fitting_cell(tape, request, max_bricks, cancelled);
+  if (!fits.ok()) return fits.status();
+  constexpr std::uint64_t kCells = blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells;
+  return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", request.cell_size, " takes more than the ",
+                                                   max_bricks * kCells,
+                                                   " cells admitted; the smallest cell size that fits is ", *fits));
+}
+
+std::vector<std::uint32_t> brick_neighbours(const std::vector<Brick>& bricks) {
+  // Shifted by one so that -1 stays in range.
+  const auto key = [](std::uint64_t x, std::uint64_t y, std::uint64_t z) {
+    return (x + 1) | (y + 1) << 21 | (z + 1) << 42;
+  };
+  constexpr std::array<std::array<int, 3>, 9> kSteps{{{-1, 0, 0},
+                                                      {1, 0, 0},
+                                                      {0, -1, 0},
+                                                      {0, 1, 0},
+                                                      {0, 0, -1},
+                                                      {0, 0, 1},
+                                                      {0, -1, -1},
+                                                      {-1, 0, -1},
+                                                      {-1, -1, 0}}};
+  absl::flat_hash_map<std::uint64_t, std::uint32_t> places;
+  places.reserve(bricks.size());
+  for (std::uint32_t i = 0; i < bricks.size(); ++i) places.emplace(key(bricks[i].x, bricks[i].y, bricks[i].z), i);
+  std::vector<std::uint32_t> neighbours(9 * bricks.size(), ~0u);
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    for (std::size_t n = 0; n < 9; ++n) {
+      const auto it = places.find(key(bricks[i].x + kSteps[n][0], bricks[i].y + kSteps[n][1], bricks[i].z + kSteps[n][2]));
+      if (it != places.end()) neighbours[9 * i + n] = it->second;
+    }
+  }
+  return neighbours;
+}
+
+}  // namespace isofield::engine

@@ -1,0 +1,26 @@
+// The lattice of cells that a mesh request looks at, and its bricks.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include "blobtree/lattice.h"
+#include "engine/mesher.h"
+
+namespace isofield::engine {
+
+// Cells along an axis: float32 numbers lattice points exactly up to here and beyond.
+inline constexpr std::uint32_t kMaxCellsPerAxis = 1u << 22;
+
+// Derived bounds lie on multiples of the cell size, so that a scene that grows keeps its lattice; stated bounds start
+// the lattice at their corner.
+absl::StatusOr<blobtree::Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request);
+
+// The bricks that the surface may cross. RESOURCE_EXHAUSTED beyond max_bricks, with the smallest cell size that fits.
+absl::StatusOr<blobtree::BrickList> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
+                                                   const blobtree::Lattice& lattice, std::uint64_t max_bricks,
+                                                   const std::function<bool()>& cancelled);
+
+// For each brick the places of the nine neighbours that shaders/lib/mesh_neighbours.glsl names, or ~0.
+std::vector<std::uint32_t> brick_neighbours(const std::vector<blobtree::Brick>& bricks);
+
+}  // namespace isofield::engine

@@ -1,0 +1,39 @@
+// A scene on the device: its tape with the buffers that kernels read.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <memory>
+
+#include "blobtree/tape.h"
+#include "gpu/buffer.h"
+#include "gpu/device.h"
+
+namespace isofield::engine {
+
+// Immutable: an edit makes a new one. A shared_ptr to it is the lease under which a request reads; the buffers go when
+// the last lease does.
+class ResidentScene {
+ public:
+  static absl::StatusOr<std::shared_ptr<const ResidentScene>> create(gpu::Device& device, blobtree::Tape tape);
+
+  const blobtree::Tape& tape() const { return tape_; }
+  const gpu::Buffer& leaves() const { return leaves_; }
+  const gpu::Buffer& operations() const { return operations_; }
+  const gpu::Buffer& tables() const { return tables_; }
+  const gpu::Buffer& code() const { return code_; }
+  std::uint64_t device_bytes() const {
+    return leaves_.size() + operations_.size() + tables_.size() + code_.size();
+  }
+
+ private:
+  ResidentScene() = default;
+
+  blobtree::Tape tape_;
+  gpu::Buffer leaves_, operations_, tables_, code_;
+};
+
+using SceneLease = std::shared_ptr<const ResidentScene>;
+
+}  // namespace isofield::engine

@@ -1,0 +1,55 @@
+#include "engine/session.h"
+
+namespace isofield::engine {
+
+using gpu::Buffer;
+
+absl::StatusOr<Session> Session::begin(gpu::Device& device) {
+  absl::StatusOr<gpu::Commands> commands = gpu::Commands::begin(device);
+  if (!commands.ok()) return commands.status();
+  return Session(device, *std::move(commands));
+}
+
+absl::StatusOr<Buffer> Session::scratch(std::size_t bytes) {
+  return Buffer::create(*device_, bytes, Buffer::Use::kDevice);
+}
+
+absl::StatusOr<Buffer> Session::upload_bytes(std::span<const std::byte> data) {
+  absl::StatusOr<Buffer> buffer = scratch(data.size());
+  if (!buffer.ok() || data.empty()) return buffer;
+  if (buffer->data()) {
+    std::memcpy(buffer->data(), data.data(), data.size());
+    return buffer;
+  }
+  absl::StatusOr<Buffer> staging = Buffer::create(*device_, data.size(), Buffer::Use::kUpload);
+  if (!staging.ok()) return staging.status();
+  std::memcpy(staging->data(), data.data(), data.size());
+  commands_.copy(*staging, 0, *buffer, 0, data.size());
+  commands_.barrier();
+  staging_.push_back(*std::move(staging));
+  return buffer;
+}
+
+absl::Status Session::download_bytes(const Buffer& buffer, std::span<std::byte> out) {
+  if (out.empty()) return absl::OkStatus();
+  if (buffer.data()) {
+    downloads_.push_back({buffer.data(), out});
+    return absl::OkStatus();
+  }
+  absl::StatusOr<Buffer> staging = Buffer::create(*device_, out.size(), Buffer::Use::kReadback);
+  if (!staging.ok()) return staging.status();
+  commands_.barrier();
+  commands_.copy(buffer, 0, *staging, 0, out.size());
+  downloads_.push_back({staging->data(), out});
+  staging_.push_back(*std::move(staging));
+  return absl::OkStatus();
+}
+
+absl::Status Session::run() {
+  if (absl::Status s = commands_.submit(); !s.ok()) return s;
+  if (absl::Status s = commands_.wait(); !s.ok()) return s;
+  for (const Download& d : downloads_) std::memcpy(d.to.data(), d.from, d.to.size());
+  return absl::OkStatus();
+}
+
+}  // namespace isofield::engine

@@ -1,0 +1,56 @@
+// One piece of work on the device: arrays go up, kernels run, arrays come down.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <cstddef>
+#include <cstring>
+#include <deque>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/commands.h"
+#include "gpu/device.h"
+
+namespace isofield::engine {
+
+// One thread. Where the device's memory is the host's, nothing is staged.
+class Session {
+ public:
+  static absl::StatusOr<Session> begin(gpu::Device& device);
+
+  gpu::Commands& commands() { return commands_; }
+
+  // A buffer on the device that holds `data` when the next dispatch runs.
+  template <class T>
+  absl::StatusOr<gpu::Buffer> upload(std::span<const T> data) {
+    return upload_bytes(std::as_bytes(data));
+  }
+  // A buffer of undefined content.
+  absl::StatusOr<gpu::Buffer> scratch(std::size_t bytes);
+  // Fills `out` from the start of the buffer when run() returns; record it after the dispatches that write the buffer.
+  template <class T>
+  absl::Status download(const gpu::Buffer& buffer, std::span<T> out) {
+    return download_bytes(buffer, std::as_writable_bytes(out));
+  }
+  // Submits, waits, and carries out the downloads. The session is over.
+  absl::Status run();
+
+ private:
+  struct Download {
+    const std::byte* from;
+    std::span<std::byte> to;
+  };
+  Session(gpu::Device& device, gpu::Commands commands) : device_(&device), commands_(std::move(commands)) {}
+  absl::StatusOr<gpu::Buffer> upload_bytes(std::span<const std::byte> data);
+  absl::Status download_bytes(const gpu::Buffer& buffer, std::span<std::byte> out);
+
+  gpu::Device* device_;
+  std::deque<gpu::Buffer> staging_;  // outlives the commands
+  gpu::Commands commands_;
+  std::vector<Download> downloads_;
+};
+
+}  // namespace isofield::engine

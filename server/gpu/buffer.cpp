@@ -1,0 +1,78 @@
+#include "gpu/buffer.h"
+
+#include "gpu/buffer_impl.h"
+
+namespace isofield::gpu {
+namespace {
+
+using Flags = vk::MemoryPropertyFlags;
+using Flag = vk::MemoryPropertyFlagBits;
+
+// Memory kinds in the order of preference.
+std::vector<Flags> wishes(Buffer::Use use) {
+  switch (use) {
+    case Buffer::Use::kUpload:
+      return {Flag::eHostVisible | Flag::eHostCoherent};
+    case Buffer::Use::kReadback:
+      return {Flag::eHostVisible | Flag::eHostCoherent | Flag::eHostCached, Flag::eHostVisible | Flag::eHostCoherent};
+    default:
+      return {Flag::eDeviceLocal, Flags{}};
+  }
+}
+
+std::optional<std::uint32_t> memory_type(const vk::PhysicalDeviceMemoryProperties& memory, std::uint32_t allowed,
+                                         Buffer::Use use) {
+  for (const Flags wish : wishes(use)) {
+    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+      if ((allowed >> i & 1) && (memory.memoryTypes[i].propertyFlags & wish) == wish) return i;
+    }
+  }
+  return std::nullopt;
+}
+
+// Integrated devices and lavapipe: the host reads device memory as fast as its own.
+bool worth_mapping(const Device::Impl& device, Flags flags, Buffer::Use use) {
+  const Flags visible = Flag::eHostVisible | Flag::eHostCoherent;
+  if ((flags & visible) != visible) return false;
+  return use != Buffer::Use::kDevice || device.description.type == "cpu" || device.description.type == "integrated";
+}
+
+}  // namespace
+
+Buffer::Buffer() = default;
+Buffer::Buffer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Buffer::Buffer(Buffer&&) noexcept = default;
+Buffer& Buffer::operator=(Buffer&&) noexcept = default;
+Buffer::~Buffer() = default;
+
+absl::StatusOr<Buffer> Buffer::create(Device& device, std::size_t bytes, Use use) {
+  Device::Impl& d = device.impl();
+  const std::size_t size = std::max<std::size_t>((bytes + 15) / 16 * 16, 16);
+  if (size > d.description.max_buffer_bytes) {
+    return absl::ResourceExhaustedError(absl::StrCat("a buffer of ", size, " bytes; the device binds at most ",
+                                                     d.description.max_buffer_bytes));
+  }
+  try {
+    auto impl = std::make_unique<Impl>(d, size);
+    impl->buffer.emplace(*d.device, vk::BufferCreateInfo({}, size,
+                                                         vk::BufferUsageFlagBits::eStorageBuffer |
+                                                             vk::BufferUsageFlagBits::eTransferSrc |
+                                                             vk::BufferUsageFlagBits::eTransferDst));
+    const vk::MemoryRequirements needs = impl->buffer->getMemoryRequirements();
+    const auto type = memory_type(d.memory, needs.memoryTypeBits, use);
+    if (!type) return absl::InternalError("Vulkan offers no memory for a storage buffer");
+    impl->memory.emplace(*d.device, vk::MemoryAllocateInfo(needs.size, *type));
+    impl->buffer->bindMemory(**impl->memory, 0);
+    if (worth_mapping(d, d.memory.memoryTypes[*type].propertyFlags, use)) {
+      impl->mapped = static_cast<std::byte*>(impl->memory->mapMemory(0, VK_WHOLE_SIZE));
+    }
+    return Buffer(std::move(impl));
+  } catch (const vk::SystemError& error) {
+    return to_status(error, "allocating a buffer");
+  }
+}
+
+std::size_t Buffer::size() const { return impl_ ? impl_->size : 0; }
+std::byte* Buffer::data() const { return impl_ ? impl_->mapped : nullptr; }
+
+}  // namespace isofield::gpu

@@ -1,0 +1,130 @@
+#include "gpu/commands.h"
+
+#include "gpu/buffer_impl.h"
+#include "gpu/device_impl.h"
+#include "gpu/pipeline_impl.h"
+
+namespace isofield::gpu {
+namespace {
+
+constexpr std::uint32_t kSetsPerPool = 64;
+
+}  // namespace
+
+struct Commands::Impl {
+  explicit Impl(Device::Impl& d)
+      : device(d),
+        pool(*d.device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, d.queue_family)),
+        buffer(std::move(
+            vk::raii::CommandBuffers(*d.device, {*pool, vk::CommandBufferLevel::ePrimary, 1}).front())),
+        fence(*d.device, vk::FenceCreateInfo()) {
+    buffer.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+  }
+
+  vk::DescriptorSet next_set() {
+    if (sets_left == 0) {
+      const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, kSetsPerPool * kBindings);
+      set_pools.emplace_back(*device.device, vk::DescriptorPoolCreateInfo({}, kSetsPerPool, size));
+      sets_left = kSetsPerPool;
+    }
+    --sets_left;
+    // Freed with their pool.
+    return (*device.device)
+        .allocateDescriptorSets({*set_pools.back(), **device.set_layout})
+        .front()
+        .release();
+  }
+
+  Device::Impl& device;
+  vk::raii::CommandPool pool;
+  vk::raii::CommandBuffer buffer;
+  vk::raii::Fence fence;
+  std::vector<vk::raii::DescriptorPool> set_pools;
+  std::uint32_t sets_left = 0;
+  bool is_submitted = false;
+};
+
+Commands::Commands(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Commands::Commands(Commands&&) noexcept = default;
+Commands& Commands::operator=(Commands&&) noexcept = default;
+Commands::~Commands() {
+  if (impl_) wait().IgnoreError();
+}
+
+absl::StatusOr<Commands> Commands::begin(Device& device) {
+  try {
+    return Commands(std::make_unique<Impl>(device.impl()));
+  } catch (const vk::SystemError& error) {
+    return to_status(error, "beginning commands");
+  }
+}
+
+absl::Status Commands::dispatch(const Pipeline& pipeline, Bindings bindings, std::span<const std::byte> push_constants,
+                                std::uint32_t groups) {
+  if (groups == 0) return absl::OkStatus();
+  if (groups > kMaxGroups) return absl::InternalError(absl::StrCat("a dispatch of ", groups, " workgroups"));
+  try {
+    const vk::DescriptorSet set = impl_->next_set();
+    std::vector<vk::DescriptorBufferInfo> infos;
+    std::vector<vk::WriteDescriptorSet> writes;
+    infos.reserve(bindings.size());
+    for (const auto& [binding, buffer] : bindings) {
+      infos.emplace_back(**buffer->impl().buffer, 0, VK_WHOLE_SIZE);
+      writes.emplace_back(set, binding, 0, 1, vk::DescriptorType::eStorageBuffer, nullptr, &infos.back());
+    }
+    impl_->device.device->updateDescriptorSets(writes, {});
+    const vk::raii::CommandBuffer& b = impl_->buffer;
+    b.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline.impl().pipeline);
+    b.bindDescriptorSets(vk::PipelineBindPoint::eCompute, **impl_->device.pipeline_layout, 0, set, {});
+    b.pushConstants<std::byte>(**impl_->device.pipeline_layout, vk::ShaderStageFlagBits::eCompute, 0,
+                               vk::ArrayProxy<const std::byte>(push_constants.size(), push_constants.data()));
+    b.dispatch(groups, 1, 1);
+    return absl::OkStatus();
+  } catch (const vk::SystemError& error) {
+    return to_status(error, "recording a dispatch");
+  }
+}
+
+void Commands::barrier() {
+  using Access = vk::AccessFlagBits;
+  using Stage = vk::PipelineStageFlagBits;
+  const vk::MemoryBarrier all(Access::eShaderWrite | Access::eTransferWrite,
+                              Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead |
+                                  Access::eTransferWrite | Access::eHostRead);
+  impl_->buffer.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer,
+                                Stage::eComputeShader | Stage::eTransfer | Stage::eHost, {}, all, {}, {});
+}
+
+void Commands::copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset,
+                    std::size_t bytes) {
+  impl_->buffer.copyBuffer(**from.impl().buffer, **to.impl().buffer, vk::BufferCopy(from_offset, to_offset, bytes));
+}
+
+void Commands::fill_zero(const Buffer& buffer) { impl_->buffer.fillBuffer(**buffer.impl().buffer, 0, VK_WHOLE_SIZE, 0); }
+
+absl::Status Commands::submit() {
+  try {
+    barrier();
+    impl_->buffer.end();
+    const vk::CommandBuffer buffer = *impl_->buffer;
+    const std::lock_guard lock(impl_->device.queue_mutex);
+    impl_->device.queue->submit(vk::SubmitInfo({}, {}, buffer), *impl_->fence);
+    impl_->is_submitted = true;
+    return absl::OkStatus();
+  } catch (const vk::SystemError& error) {
+    return to_status(error, "submitting commands");
+  }
+}
+
+absl::Status Commands::wait() {
+  if (!impl_->is_submitted) return absl::OkStatus();
+  try {
+    const vk::Result result = impl_->device.device->waitForFences(*impl_->fence, true, ~std::uint64_t{0});
+    impl_->is_submitted = false;
+    return result == vk::Result::eSuccess ? absl::OkStatus() : absl::InternalError("Vulkan: waiting for a fence failed");
+  } catch (const vk::SystemError& error) {
+    return to_status(error, "waiting for the device");
+  }
+}
+
+}  // namespace isofield::gpu

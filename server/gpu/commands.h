@@ -1,0 +1,54 @@
+// Work for the device: recorded, submitted once, waited for.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "gpu/buffer.h"
+#include "gpu/pipeline.h"
+
+namespace isofield::gpu {
+
+// One thread at a time. Buffers and pipelines used must live until wait() has returned; destroying a submitted one
+// waits.
+class Commands {
+ public:
+  static absl::StatusOr<Commands> begin(Device& device);
+  Commands(Commands&&) noexcept;
+  Commands& operator=(Commands&&) noexcept;
+  ~Commands();
+
+  using Bindings = std::initializer_list<std::pair<std::uint32_t, const Buffer*>>;
+  // Runs `groups` workgroups, in dispatches of at most what the device takes along one axis: a shader finds its group
+  // by gl_WorkGroupID.x, so callers keep groups <= 65,535. Nothing is recorded for 0 groups.
+  absl::Status dispatch(const Pipeline& pipeline, Bindings bindings, std::span<const std::byte> push_constants,
+                        std::uint32_t groups);
+  template <class Constants>
+  absl::Status dispatch(const Pipeline& pipeline, Bindings bindings, const Constants& constants, std::uint32_t groups) {
+    return dispatch(pipeline, bindings, std::as_bytes(std::span(&constants, 1)), groups);
+  }
+  // What follows sees what came before.
+  void barrier();
+  void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset, std::size_t bytes);
+  void fill_zero(const Buffer& buffer);
+
+  absl::Status submit();
+  // Until the device is done; at once when nothing was submitted.
+  absl::Status wait();
+
+  struct Impl;
+
+ private:
+  explicit Commands(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+// Groups a dispatch may have.
+inline constexpr std::uint32_t kMaxGroups = 65'535;
+
+}  // namespace isofield::gpu

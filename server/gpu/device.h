@@ -1,0 +1,51 @@
+// A Vulkan device with one compute queue: the root object of this room. All of gpu/ keeps Vulkan out of its headers.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace isofield::gpu {
+
+struct DeviceOptions {
+  // Part of the name of the device to use; empty: the best one.
+  std::string name;
+  // The Khronos validation layer; an error when it is not installed.
+  bool validation = false;
+  // Called with each validation message, from any thread.
+  std::function<void(const std::string&)> on_validation_message;
+};
+
+struct DeviceDescription {
+  std::string name, driver, vulkan_version;
+  std::string type;  // "cpu", "integrated", "discrete", "virtual", "other"
+  std::uint32_t subgroup_size = 0;
+  std::uint64_t max_buffer_bytes = 0;  // of one binding
+};
+
+// Thread-safe. Must outlive all that is made from it.
+class Device {
+ public:
+  // NOT_FOUND: no usable device, or no validation layer. INTERNAL: the driver failed.
+  static absl::StatusOr<std::unique_ptr<Device>> create(const DeviceOptions& options);
+  ~Device();
+
+  const DeviceDescription& description() const;
+  // Validation messages so far.
+  std::uint64_t validation_messages() const;
+  // Bytes allocated on the device now.
+  std::uint64_t allocated_bytes() const;
+
+  struct Impl;  // gpu/device_impl.h
+  Impl& impl() { return *impl_; }
+
+ private:
+  explicit Device(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace isofield::gpu

@@ -1,0 +1,21 @@
+// Private to this room: Vulkan-Hpp, and how its exceptions become statuses.
+#pragma once
+
+#include <absl/status/status.h>
+#include <absl/strings/str_cat.h>
+
+#define VULKAN_HPP_NO_SPACESHIP_OPERATOR
+#include <vulkan/vulkan_raii.hpp>
+
+namespace isofield::gpu {
+
+inline absl::Status to_status(const vk::SystemError& error, const char* doing) {
+  const std::string text = absl::StrCat("Vulkan, ", doing, ": ", error.what());
+  const auto code = static_cast<vk::Result>(error.code().value());
+  if (code == vk::Result::eErrorOutOfDeviceMemory || code == vk::Result::eErrorOutOfHostMemory) {
+    return absl::ResourceExhaustedError(text);
+  }
+  return absl::InternalError(text);
+}
+
+}  // namespace isofield::gpu

@@ -1,0 +1,45 @@
+#include "operators/opening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace isofield::operators {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+}  // namespace
+
+Curve kappa(double x) {
+  if (x <= 0) return {0, 0, 0};
+  if (x >= 1) return {1, 0, 0};
+  // kappa = 1 - exp(1 - 1/s), s = 1 - exp(1 - 1/x); -expm1 keeps small values exact.
+  const double e = std::exp(1 - 1 / x);
+  const double s = -std::expm1(1 - 1 / x);
+  if (s <= 0) return {1, 0, 0};
+  const double outer = std::exp(1 - 1 / s);
+  const double ds = -e / (x * x);
+  return {-std::expm1(1 - 1 / s), -outer * ds / (s * s), 0};
+}
+
+Curve Opening::theta(double alpha) const {
+  if (alpha <= alpha0) return {theta0, 0, 0};
+  if (alpha >= alpha2) return {theta2, 0, 0};
+  const bool rising = alpha > alpha1;
+  const double span = rising ? alpha2 - alpha1 : alpha0 - alpha1;
+  const double w = rising ? w1 : w0;
+  const double far = rising ? theta2 : theta0;
+  const Curve k = kappa((alpha - alpha1) / span);
+  if (k.v <= 0) return {theta1, 0, 0};
+  const double power = std::pow(k.v, w);
+  return {power * (far - theta1) + theta1, w * power / k.v * k.d1 / span * (far - theta1), 0};
+}
+
+double Opening::theta_min() const { return std::min({theta0, theta1, theta2}); }
+
+Opening camel() { return {0, kPi / 2, kPi, kPi / 4, 0, kPi / 4, 1, 1}; }
+Opening organic() { return {0, kPi / 3, 3 * kPi / 4, kPi / 6, 0, kPi / 4, 3, 1}; }
+Opening contact() { return {0, kPi / 2, kPi, 0, kPi / 10, kPi / 4, 1, 0.7}; }
+
+}  // namespace isofield::operators

@@ -1,0 +1,31 @@
+// Opening functions theta(alpha): how wide a gradient-based blend opens at the angle alpha between two gradients.
+// Source: [G] Gourmel et al. 2013, eqs. 15 and 16, Table I.
+#pragma once
+
+#include <string>
+
+#include "operators/derivatives.h"
+
+namespace isofield::operators {
+
+// Radians. 0 <= alpha0 < alpha1 < alpha2 <= pi; thetas within [0, pi/4]; w within [0.05, 20].
+struct Opening {
+  double alpha0, alpha1, alpha2;
+  double theta0, theta1, theta2;
+  double w0, w1;
+
+  // theta and d theta / d alpha at alpha within [0, pi]; the second derivative is not needed and left 0.
+  Curve theta(double alpha) const;
+  // The angle where one of the gradients vanishes ([G] section 7).
+  double theta_min() const;
+  bool operator==(const Opening&) const = default;
+};
+
+Opening camel();
+Opening organic();
+Opening contact();
+
+// kappa(x) of eq. 16 for x within [0, 1], with its first derivative.
+Curve kappa(double x);
+
+}  // namespace isofield::operators

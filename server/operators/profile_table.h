@@ -1,0 +1,32 @@
+// Functions of one variable as piecewise cubics: the `profile` representation of an operator, a few KiB instead of a
+// volume. Cubic Hermite cells keep value and slope continuous, and exact at the nodes.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "operators/derivatives.h"
+#include "operators/opening.h"
+#include "operators/silhouette.h"
+
+namespace isofield::operators {
+
+// Coefficients of c[0] + c[1] s + c[2] s^2 + c[3] s^3 with s within [0, 1] across the cell.
+using CubicCell = std::array<float, 4>;
+using ProfileTable = std::vector<CubicCell>;
+
+// Numbers of cells. Measured maximal errors of the device's g against exact arithmetic are in tests/gpu.
+inline constexpr int kPhiCells = 128;         // x within [0, 2]
+inline constexpr int kSilhouetteCells = 256;  // u within [0, 1]
+inline constexpr int kOpeningCells = 256;     // alpha within [0, pi]
+
+ProfileTable phi_table();
+ProfileTable silhouette_table(const Silhouette& silhouette);
+// tan(theta(alpha)): the operator needs nothing else of theta.
+ProfileTable opening_table(const Opening& opening);
+
+// The least c with q(u) <= 1 + c u on [0, 1]: M(a, b) <= a + c b bounds the operator from above.
+double silhouette_bound(const Silhouette& silhouette);
+
+}  // namespace isofield::operators

@@ -1,0 +1,70 @@
+#include "operators/silhouette.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace isofield::operators {
+namespace {
+
+// Root of an increasing function on [lo, hi] to the last bit or so.
+template <class Function>
+double bisect(double lo, double hi, Function f) {
+  for (int i = 0; i < 200 && lo < hi; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    if (middle <= lo || middle >= hi) break;
+    (f(middle) < 0 ? lo : hi) = middle;
+  }
+  return 0.5 * (lo + hi);
+}
+
+// The upper half y(x) of a silhouette: x within [0, 1], y >= x.
+Curve upper_half(const Silhouette& s, double x) {
+  if (s.kind == Silhouette::Kind::kSmooth) {
+    const Curve e = smooth_step_e(x);
+    return {1 - e.v, -e.d1, -e.d2};
+  }
+  // [G] eq. 31, its two cases in the right order: y = 1 - K exp(1 - 1/x) (1 - x).
+  if (x <= 0) return {1, 0, 0};
+  const double e = s.k * std::exp(1 - 1 / x);
+  const double x2 = x * x;
+  const double slope = (1 - x) / x2 - 1;
+  return {1 - e * (1 - x), -e * slope, -e * (slope / x2 - 1 / x2 - 2 * (1 - x) / (x2 * x))};
+}
+
+}  // namespace
+
+Curve smooth_step_e(double x) {
+  constexpr double e = std::numbers::e;
+  const double a = std::exp(e * (1 - x));
+  const double nu = std::expm1(std::expm1(e * (1 - x)));
+  const double l = std::log1p(1 / nu);
+  const double d1 = a / (nu * (1 + l));
+  return {std::log1p(l) / e, d1, d1 * (-e + e * a * (nu + 1) / nu - e * a / (nu * (1 + l)))};
+}
+
+Curve phi(double x) {
+  if (x <= 0) return {x, 1, 0};
+  const double y = bisect(0, 1, [x](double y) { return y + smooth_step_e(y).v - x; });
+  const Curve e = smooth_step_e(y);
+  // E is infinite at 1, where phi is flat.
+  if (!std::isfinite(e.d1) || !std::isfinite(e.d2)) return {y, 0, 0};
+  const double slope = 1 / (1 + e.d1);
+  return {y, slope, -e.d2 * slope * slope * slope};
+}
+
+Curve Silhouette::profile(double u) const {
+  if (u <= 0) return {1, 0, 0};
+  // The ray of slope u meets the curve where x = u y(x); there M = 1, so q(u) = 1 / y.
+  const double x = bisect(0, 1, [&](double x) { return x - u * upper_half(*this, x).v; });
+  const Curve y = upper_half(*this, x);
+  // 0 only at the fold of a bulge with K = 1, where the profile ends with a vertical tangent.
+  const double denominator = std::max(1 - u * y.d1, 1e-6);
+  const double x1 = y.v / denominator;
+  const double x2 = (2 * y.v * y.d1 + u * y.v * y.d2 * x1) / (denominator * denominator);
+  const double v2 = y.v * y.v;
+  return {1 / y.v, -y.d1 * x1 / v2,
+          -(y.d2 * x1 * x1 + y.d1 * x2) / v2 + 2 * y.d1 * y.d1 * x1 * x1 / (v2 * y.v)};
+}
+
+}  // namespace isofield::operators

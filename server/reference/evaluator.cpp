@@ -1,0 +1,81 @@
+#include "reference/evaluator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace isofield::reference {
+namespace {
+
+using blobtree::Affine;
+using blobtree::dvec3;
+using blobtree::Node;
+using blobtree::NodeKind;
+
+Primitive place(const Node& node, const Affine& to_world) {
+  const Affine frame = to_world.after(node.frame);
+  // The reader refuses singular transforms; a product of many may still underflow, to a primitive that is nowhere.
+  const std::optional<Affine> inverse = frame.inverse();
+  if (!inverse) return {node.shape, node.size, 0, Affine::scale({}), {}};
+  return {node.shape, node.size, node.range, {inverse->linear, {}}, frame.offset};
+}
+
+// The primitive's range in the world, along the direction in which its frame shrinks most.
+double world_range(const Node& node, const Affine& to_world) {
+  return node.range * to_world.after(node.frame).stretch().least;
+}
+
+}  // namespace
+
+Evaluator::Evaluator(const blobtree::Scene& scene) : nodes_(scene.nodes) {
+  // A node on the way: the walk keeps its own stack, since trees may be far deeper than the call stack.
+  struct Visit {
+    std::uint32_t node;
+    Affine to_world;
+    std::size_t next_child = 0;
+    double length = 0;
+  };
+  std::vector<Visit> stack{{scene.root, {}}};
+  while (!stack.empty()) {
+    Visit& top = stack.back();
+    const Node& node = nodes_[top.node];
+    if (top.next_child < node.children.size()) {
+      const std::uint32_t child = node.children[top.next_child++];
+      stack.push_back({child, node.kind == NodeKind::kTransform ? top.to_world.after(node.frame) : top.to_world});
+      continue;
+    }
+    Step step{.node = top.node, .children = static_cast<std::uint32_t>(node.children.size())};
+    if (node.kind == NodeKind::kPrimitive) {
+      step.primitive = static_cast<std::uint32_t>(primitives_.size());
+      primitives_.push_back(place(node, top.to_world));
+      top.length = world_range(node, top.to_world);
+    }
+    step.length = top.length;
+    steps_.push_back(step);
+    stack.pop_back();
+    if (!stack.empty()) stack.back().length = std::max(stack.back().length, step.length);
+  }
+}
+
+FieldState Evaluator::state(const dvec3& p) const {
+  std::vector<FieldState> stack;
+  for (const Step& step : steps_) {
+    const Node& node = nodes_[step.node];
+    if (node.kind == NodeKind::kPrimitive) {
+      stack.push_back(evaluate_primitive(primitives_[step.primitive], p));
+      continue;
+    }
+    const OperatorUse use{node.kind, node.exponent, &node.opening, &node.silhouette, step.length};
+    const std::size_t first = stack.size() - step.children;
+    for (std::size_t i = first + 1; i < stack.size(); ++i) stack[first] = combine(use, stack[first], stack[i]);
+    stack.resize(first + 1);
+  }
+  return stack.back();
+}
+
+Sample Evaluator::evaluate(const dvec3& p) const {
+  const FieldState s = state(p);
+  return {s.field.v, s.field.d};
+}
+
+}  // namespace isofield::reference

@@ -1,0 +1,49 @@
+// A number with its first and second derivatives with respect to the three coordinates of a point: forward automatic
+// differentiation of second order. What shape_distance and soften are evaluated with.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "blobtree/vec3.h"
+
+namespace isofield::reference {
+
+struct Jet {
+  double v = 0;
+  std::array<double, 3> d{};                 // gradient
+  std::array<std::array<double, 3>, 3> h{};  // Hessian
+
+  Jet() = default;
+  Jet(double value) : v(value) {}  // NOLINT: constants mix with jets as numbers do
+
+  // f(a, b) of a function with these partial derivatives at (a, b).
+  static Jet chain(const Jet& a, const Jet& b, double f, double fa, double fb, double faa, double fab, double fbb) {
+    Jet r(f);
+    for (int i = 0; i < 3; ++i) {
+      r.d[i] = fa * a.d[i] + fb * b.d[i];
+      for (int j = 0; j < 3; ++j) {
+        r.h[i][j] = fa * a.h[i][j] + fb * b.h[i][j] + faa * a.d[i] * a.d[j] + fbb * b.d[i] * b.d[j] +
+                    fab * (a.d[i] * b.d[j] + b.d[i] * a.d[j]);
+      }
+    }
+    return r;
+  }
+
+  friend Jet operator+(const Jet& a, const Jet& b) { return chain(a, b, a.v + b.v, 1, 1, 0, 0, 0); }
+  friend Jet operator-(const Jet& a, const Jet& b) { return chain(a, b, a.v - b.v, 1, -1, 0, 0, 0); }
+  friend Jet operator*(const Jet& a, const Jet& b) { return chain(a, b, a.v * b.v, b.v, a.v, 0, 1, 0); }
+};
+
+// The derivatives at 0, which do not exist, are 0; so close to 0 that the third power of the root would vanish, too.
+inline Jet sqrt(const Jet& a) {
+  if (a.v <= 1e-60) return std::sqrt(a.v > 0 ? a.v : 0);
+  const double root = std::sqrt(a.v);
+  return Jet::chain(a, a, root, 0.5 / root, 0, -0.25 / (a.v * root), 0, 0);
+}
+inline Jet abs(const Jet& a) { return a.v < 0 ? Jet(0.0) - a : a; }
+// Where both are equal the first is taken.
+inline Jet max(const Jet& a, const Jet& b) { return a.v >= b.v ? a : b; }
+inline Jet min(const Jet& a, const Jet& b) { return a.v <= b.v ? a : b; }
+
+}  // namespace isofield::reference

@@ -1,0 +1,34 @@
+#include "embedded.h"
+
+namespace isofield::shaders {
+namespace {
+
+#include "points_value.inc"
+#include "points_gradient.inc"
+#include "grid_value.inc"
+#include "grid_gradient.inc"
+#include "mesh_sample.inc"
+#include "mesh_classify.inc"
+#include "mesh_connect.inc"
+#include "mesh_list.inc"
+#include "mesh_vertices.inc"
+#include "mesh_normals.inc"
+#include "mesh_triangles.inc"
+#include "operator_probe.inc"
+
+}  // namespace
+
+const Spirv kPointsValue{points_value};
+const Spirv kPointsGradient{points_gradient};
+const Spirv kGridValue{grid_value};
+const Spirv kGridGradient{grid_gradient};
+const Spirv kMeshSample{mesh_sample};
+const Spirv kMeshClassify{mesh_classify};
+const Spirv kMeshConnect{mesh_connect};
+const Spirv kMeshList{mesh_list};
+const Spirv kMeshVertices{mesh_vertices};
+const Spirv kMeshNormals{mesh_normals};
+const Spirv kMeshTriangles{mesh_triangles};
+const Spirv kOperatorProbe{operator_probe};
+
+}  // namespace isofield::shaders

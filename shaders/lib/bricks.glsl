@@ -1,0 +1,25 @@
+// Bricks of a lattice: server/blobtree/lattice.h.
+#ifndef BRICKS_GLSL
+#define BRICKS_GLSL
+
+const uint BRICK_CELLS = 4u;
+const uint BRICK_CORNERS = BRICK_CELLS + 1u;
+const uint CELLS_PER_BRICK = BRICK_CELLS * BRICK_CELLS * BRICK_CELLS;
+const uint CORNERS_PER_BRICK = BRICK_CORNERS * BRICK_CORNERS * BRICK_CORNERS;
+
+struct Brick {
+  uvec3 at;  // in bricks
+  uint tape_begin, tape_count;
+};
+
+layout(std430, binding = 4) readonly buffer Bricks { uint bricks[]; };
+
+Brick brick(uint b) {
+  uint i = 5u * b;
+  return Brick(uvec3(bricks[i], bricks[i + 1u], bricks[i + 2u]), bricks[i + 3u], bricks[i + 4u]);
+}
+
+// The lattice point i: the same bits from whichever brick it is asked.
+vec3 lattice_point(vec3 origin, vec3 spacing, uvec3 i) { return origin + spacing * vec3(i); }
+
+#endif

@@ -1,0 +1,51 @@
+// What every pass of the mesher is told, and the numbering that its passes share.
+//
+// A cell's corners are numbered x + 2 y + 4 z, its edges 4 axis + u + 2 v with (u, v) the offsets along the next two
+// axes in cyclic order. Its surface falls into patches, one vertex each (dual marching cubes): server/engine/surface_cases.h.
+#ifndef MESH_CONSTANTS_GLSL
+#define MESH_CONSTANTS_GLSL
+
+#include "bricks.glsl"
+
+layout(push_constant) uniform Constants {
+  vec4 origin;    // of the lattice; w: cell size
+  uvec4 cells;    // cells of the lattice along x, y, z
+  uint first;     // of the bricks, or jobs, of this dispatch
+  uint count;
+  float iso;
+  uint is_capped;  // 1: corners on the lattice's boundary count as outside
+};
+
+vec3 corner_position(uvec3 i) { return lattice_point(origin.xyz, vec3(origin.w), i); }
+
+uvec3 cell_in_brick(uint c) { return uvec3(c % BRICK_CELLS, c / BRICK_CELLS % BRICK_CELLS, c / (BRICK_CELLS * BRICK_CELLS)); }
+
+uvec3 corner_offset(uint corner) { return uvec3(corner & 1u, corner >> 1u & 1u, corner >> 2u); }
+
+uvec3 axis_vector(uint axis) { return uvec3(axis == 0u ? 1u : 0u, axis == 1u ? 1u : 0u, axis == 2u ? 1u : 0u); }
+
+// The lower corner of an edge of a cell.
+uvec3 edge_offset(uint edge) {
+  uint axis = edge >> 2u;
+  return (edge & 1u) * axis_vector((axis + 1u) % 3u) + (edge >> 1u & 1u) * axis_vector((axis + 2u) % 3u);
+}
+uint corner_number(uvec3 offset) { return offset.x + 2u * offset.y + 4u * offset.z; }
+
+// Place of a corner's sample within its brick.
+uint sample_place(uvec3 corner) { return corner.x + BRICK_CORNERS * (corner.y + BRICK_CORNERS * corner.z); }
+
+// A cell as the connecting pass leaves it: bits 0-7 the inside corners, bit 8 whether its ambiguous face is resolved the
+// other way, bits 16 and up the number of its first vertex in the brick.
+uint cell_case(uint cell) { return cell & 0x1ffu; }
+uint cell_vertex(uint cell) { return cell >> 16u; }
+
+// Of a case: x: patch of edge e in bits 2 e, number of patches in bits 24-26, and 1 + the face to be checked for a
+// doubled edge in bits 28-30; y: edges of patches 0 and 1, 12 bits each; z: of patches 2 and 3.
+uint case_patches(uvec4 c) { return c.x >> 24u & 7u; }
+uint case_patch_of_edge(uvec4 c, uint edge) { return c.x >> (2u * edge) & 3u; }
+uint case_edges(uvec4 c, uint patch_number) {
+  uint pair = patch_number < 2u ? c.y : c.z;
+  return (patch_number & 1u) == 0u ? pair & 0xfffu : pair >> 12u;
+}
+
+#endif

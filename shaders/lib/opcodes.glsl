@@ -1,0 +1,36 @@
+// Mirrors server/blobtree/tape.h: Operand and Operator.
+#ifndef OPCODES_GLSL
+#define OPCODES_GLSL
+
+const uint OPERAND_POP = 0u;
+const uint OPERAND_ZERO = 1u;
+const uint OPERAND_SPHERE = 2u;
+const uint OPERAND_SEGMENT = 3u;
+const uint OPERAND_BOX = 4u;
+const uint OPERAND_CYLINDER = 5u;
+const uint OPERAND_TORUS = 6u;
+const uint OPERAND_ELLIPSOID = 7u;
+const uint OPERAND_AFFINE_SEGMENT = 8u;
+
+const uint OPERATOR_PUSH = 0u;
+const uint OPERATOR_SUM = 1u;
+const uint OPERATOR_MAX = 2u;
+const uint OPERATOR_MIN = 3u;
+const uint OPERATOR_SUBTRACT = 4u;
+const uint OPERATOR_SUBTRACT_FROM = 5u;
+const uint OPERATOR_RICCI = 6u;
+const uint OPERATOR_GRADIENT = 7u;
+
+// A kernel is specialised to the opcodes of the tapes it runs: on lavapipe every branch of a shader costs, taken or not,
+// and only code that is dead at pipeline creation costs nothing.
+layout(constant_id = 0) const uint OPERAND_SET = 0xffffffffu;
+layout(constant_id = 1) const uint OPERATOR_SET = 0xffffffffu;
+layout(constant_id = 2) const uint STACK_DEPTH = 16u;
+
+bool has_operand(uint operand) { return (OPERAND_SET >> operand & 1u) != 0u; }
+bool has_operator(uint op) { return (OPERATOR_SET >> op & 1u) != 0u; }
+
+// Gradient blends steer by their operands' directions; a tape without them need not carry any.
+bool is_steered() { return has_operator(OPERATOR_GRADIENT); }
+
+#endif

@@ -1,0 +1,21 @@
+// Where results of points and grids go: 1 or 4 numbers a point.
+#ifndef OUTPUT_GLSL
+#define OUTPUT_GLSL
+
+#include "field.glsl"
+
+layout(std430, binding = 7) writeonly buffer Results { float results[]; };
+
+void write_result(uint place, Field a) {
+#ifdef WITH_GRADIENT
+  vec3 g = field_gradient(a);
+  results[4u * place] = a.f;
+  results[4u * place + 1u] = g.x;
+  results[4u * place + 2u] = g.y;
+  results[4u * place + 3u] = g.z;
+#else
+  results[place] = a.f;
+#endif
+}
+
+#endif

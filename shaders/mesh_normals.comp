@@ -1,0 +1,29 @@
+// Mesher, pass 6: unit outward normals from the field's gradient, one workgroup a brick.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "interpreter.glsl"
+#include "mesh_constants.glsl"
+
+layout(local_size_x = 32) in;
+
+layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };
+layout(std430, binding = 6) readonly buffer Starts { uvec2 starts[]; };
+layout(std430, binding = 7) readonly buffer Positions { float positions[]; };
+layout(std430, binding = 8) writeonly buffer Normals { float normals[]; };
+
+void main() {
+  uint b = jobs[2u * (first + gl_WorkGroupID.x)];
+  Brick at = brick(b);
+  uint end = starts[b + 1u].x;
+  for (uint v = starts[b].x + gl_LocalInvocationID.x; v < end; v += gl_WorkGroupSize.x) {
+    vec3 p = vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
+    // Scaled by the cell first: in large units the square of a gradient underflows.
+    vec3 n = -origin.w * field_gradient(evaluate(p, at.tape_begin, at.tape_count));
+    float length2 = dot(n, n);
+    n = length2 > 1e-30 ? n * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
+    normals[3u * v] = n.x;
+    normals[3u * v + 1u] = n.y;
+    normals[3u * v + 2u] = n.z;
+  }
+}
