@@ -78,16 +78,16 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
 }
 
 absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,
-                                             const blobtree::BrickList& bricks, std::uint32_t first_layer,
-                                             Quantity quantity, std::span<float> out) {
+                                             std::uint32_t first_layer, Quantity quantity, std::span<float> out) {
   const std::size_t layer = std::size_t{lattice.cells[0]} * lattice.cells[1] * components(quantity);
   const auto layers = static_cast<std::uint32_t>(out.size() / layer);
-  const std::uint32_t first = first_layer / blobtree::kBrickCells;
-  const std::uint32_t last = (first_layer + layers - 1) / blobtree::kBrickCells;
-  std::vector<Brick> wanted;
-  for (const Brick& b : bricks.bricks) {
-    if (b.z >= first && b.z <= last) wanted.push_back(b);
-  }
+  // Culled as a lattice of its own; the device numbers points in the whole one, so that they are the same bits.
+  blobtree::CullRequest part{.lattice = lattice, .keep = blobtree::Keep::kSupport};
+  part.lattice.origin.z += lattice.spacing.z * first_layer;
+  part.lattice.cells[2] = layers;
+  ISOFIELD_ASSIGN_OR_RETURN(blobtree::BrickList bricks, blobtree::cull(scene.tape(), part));
+  std::vector<Brick>& wanted = bricks.bricks;
+  for (Brick& b : wanted) b.z += first_layer / blobtree::kBrickCells;
   if (wanted.empty()) {
     std::fill(out.begin(), out.end(), 0.0f);
     return absl::OkStatus();
@@ -98,7 +98,7 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
                    KernelKind::of(scene.tape())));
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer code, session.upload(std::span(bricks.code)));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer brick_buffer, session.upload(std::span(std::as_const(wanted))));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer brick_buffer, session.upload(std::span(wanted)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.scratch(out.size_bytes()));
   session.commands().fill_zero(results);
   session.commands().barrier();

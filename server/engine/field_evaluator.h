@@ -24,11 +24,10 @@ class FieldEvaluator {
   absl::Status evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,
                         std::span<float> out);
 
-  // The points origin + (i, j, k) * spacing with k from first_layer to the end of `out`, which holds whole layers, x
-  // fastest. lattice.cells counts the points. `bricks` is cull(...) of that lattice with Keep::kSupport.
-  absl::Status evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,
-                               const blobtree::BrickList& bricks, std::uint32_t first_layer, Quantity quantity,
-                               std::span<float> out);
+  // The lattice's points with k from first_layer (a multiple of kBrickCells) to the end of `out`, which holds whole
+  // layers, x fastest. lattice.cells counts the points.
+  absl::Status evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice, std::uint32_t first_layer,
+                               Quantity quantity, std::span<float> out);
 
  private:
   gpu::Device& device_;

@@ -103,10 +103,10 @@ class Run {
     for (const SurfaceCase& c : surface_cases()) packed.push_back(c.packed());
     const std::vector<std::uint32_t> neighbours = brick_neighbours(list_.bricks);
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-    ISOFIELD_ASSIGN_OR_RETURN(bricks_, session.upload(std::span(std::as_const(list_.bricks))));
-    ISOFIELD_ASSIGN_OR_RETURN(code_, session.upload(std::span(std::as_const(list_.code))));
+    ISOFIELD_ASSIGN_OR_RETURN(bricks_, session.upload(std::span(list_.bricks)));
+    ISOFIELD_ASSIGN_OR_RETURN(code_, session.upload(std::span(list_.code)));
     ISOFIELD_ASSIGN_OR_RETURN(neighbours_, session.upload(std::span(neighbours)));
-    ISOFIELD_ASSIGN_OR_RETURN(surface_cases_, session.upload(std::span(std::as_const(packed))));
+    ISOFIELD_ASSIGN_OR_RETURN(surface_cases_, session.upload(std::span(packed)));
     ISOFIELD_ASSIGN_OR_RETURN(cases_, session.scratch(list_.bricks.size() * kCells));
     return session.run();
   }
@@ -127,7 +127,7 @@ class Run {
       ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
                                 kernels_.get(shader, single ? KernelKind::single_leaf(scene_.tape())
                                                             : KernelKind::of(scene_.tape())));
-      ISOFIELD_ASSIGN_OR_RETURN(Buffer job_buffer, session.upload(std::span(std::as_const(jobs))));
+      ISOFIELD_ASSIGN_OR_RETURN(Buffer job_buffer, session.upload(std::span(jobs)));
       keep.push_back(std::move(job_buffer));
       ISOFIELD_RETURN_IF_ERROR(dispatch(*kernel, keep.back(), static_cast<std::uint32_t>(jobs.size())));
     }
@@ -211,7 +211,7 @@ class Run {
     const auto total = static_cast<std::uint32_t>(list_.bricks.size());
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshList));
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-    ISOFIELD_ASSIGN_OR_RETURN(starts_buffer_, session.upload(std::span(std::as_const(starts_))));
+    ISOFIELD_ASSIGN_OR_RETURN(starts_buffer_, session.upload(std::span(starts_)));
     ISOFIELD_ASSIGN_OR_RETURN(vertex_list_, session.scratch(std::size_t{4} * starts_.back()[0]));
     ISOFIELD_ASSIGN_OR_RETURN(quad_list_, session.scratch(std::size_t{8} * starts_.back()[1]));
     Constants constants = constants_;

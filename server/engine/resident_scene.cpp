@@ -13,7 +13,7 @@ absl::StatusOr<std::shared_ptr<const ResidentScene>> ResidentScene::create(gpu::
   ISOFIELD_ASSIGN_OR_RETURN(scene->leaves_, session.upload(std::span(parameters.leaves)));
   ISOFIELD_ASSIGN_OR_RETURN(scene->operations_, session.upload(std::span(parameters.operations)));
   ISOFIELD_ASSIGN_OR_RETURN(scene->tables_, session.upload(std::span(parameters.tables)));
-  ISOFIELD_ASSIGN_OR_RETURN(scene->code_, session.upload(std::span(std::as_const(tape.code))));
+  ISOFIELD_ASSIGN_OR_RETURN(scene->code_, session.upload(std::span(tape.code)));
   ISOFIELD_RETURN_IF_ERROR(session.run());
   scene->tape_ = std::move(tape);
   return scene;

@@ -25,7 +25,7 @@ class Session {
 
   // A buffer on the device that holds `data` when the next dispatch runs.
   template <class T>
-  absl::StatusOr<gpu::Buffer> upload(std::span<const T> data) {
+  absl::StatusOr<gpu::Buffer> upload(std::span<T> data) {
     return upload_bytes(std::as_bytes(data));
   }
   // A buffer of undefined content.

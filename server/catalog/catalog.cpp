@@ -1,0 +1,84 @@
+#include "catalog/catalog.h"
+
+#include <absl/strings/ascii.h>
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+
+namespace isofield::catalog {
+namespace {
+
+bool is_name(const std::string& name) {
+  return !name.empty() && name.size() <= 128 && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return absl::ascii_isalnum(c) || c == '_' || c == '-' || c == '.' || c == '/';
+  });
+}
+
+}  // namespace
+
+absl::Status Catalog::not_found(const std::string& name) const {
+  std::string there;
+  int listed = 0;
+  for (const auto& [known, entry] : scenes_) {
+    if (++listed > 10) break;
+    absl::StrAppend(&there, listed > 1 ? ", '" : "'", known, "'");
+  }
+  if (listed > 10) absl::StrAppend(&there, ", ...");
+  return absl::NotFoundError(absl::StrCat("no scene is named '", name, "'; ",
+                                          there.empty() ? "the catalog is empty" : absl::StrCat("there are ", there)));
+}
+
+absl::StatusOr<Catalog::Put> Catalog::put(const std::string& name, v1::Scene scene, const Condition& condition) {
+  if (!is_name(name)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("name = '", name, "': expected 1 to 128 characters of A-Z a-z 0-9 _ - . /"));
+  }
+  auto stored = std::make_shared<const v1::Scene>(std::move(scene));
+  const std::lock_guard lock(mutex_);
+  const auto it = scenes_.find(name);
+  if (condition.must_be_absent && it != scenes_.end()) {
+    return absl::AlreadyExistsError(
+        absl::StrCat("scene '", name, "' exists already, at version ", it->second.version));
+  }
+  if (condition.version != 0) {
+    if (it == scenes_.end()) return not_found(name);
+    if (it->second.version != condition.version) {
+      return absl::AbortedError(absl::StrCat("scene '", name, "' is at version ", it->second.version, ", not at ",
+                                             condition.version, "; read it again"));
+    }
+  }
+  if (it == scenes_.end() && scenes_.size() >= max_scenes_) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("the catalog holds ", scenes_.size(), " scenes, all that are admitted; delete one first"));
+  }
+  Put put;
+  put.replaced_version = it == scenes_.end() ? 0 : it->second.version;
+  put.entry = {name, ++last_version_, std::move(stored)};
+  scenes_[name] = put.entry;
+  return put;
+}
+
+absl::StatusOr<Entry> Catalog::get(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto it = scenes_.find(name);
+  if (it == scenes_.end()) return not_found(name);
+  return it->second;
+}
+
+std::vector<Entry> Catalog::list() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Entry> entries;
+  for (const auto& [name, entry] : scenes_) entries.push_back(entry);
+  return entries;
+}
+
+absl::StatusOr<std::uint64_t> Catalog::remove(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  const auto it = scenes_.find(name);
+  if (it == scenes_.end()) return not_found(name);
+  const std::uint64_t version = it->second.version;
+  scenes_.erase(it);
+  return version;
+}
+
+}  // namespace isofield::catalog

@@ -1,0 +1,53 @@
+#include "daemon/config.h"
+
+#include <CLI/CLI.hpp>
+
+namespace isofield::daemon {
+
+ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
+  Config c;
+  CLI::App app("isofieldd: keeps implicit surfaces on a GPU and answers fields and meshes over gRPC.", "isofieldd");
+  app.option_defaults()->always_capture_default();
+  app.set_version_flag("--version", "isofieldd " + version);
+  app.set_config("--config", "", "Read options from a TOML or INI file");
+  app.add_option("--listen", c.listen, "Address to serve: HOST:PORT (port 0: any free one) or unix:PATH")
+      ->envname("ISOFIELD_LISTEN");
+  app.add_option("--data-dir", c.data_dir, "Folder for what outlives the process: today the compiled shaders")
+      ->envname("ISOFIELD_DATA_DIR");
+  app.add_option("--device", c.device, "Part of the name of the Vulkan device to use; empty: the best one")
+      ->envname("ISOFIELD_DEVICE");
+  app.add_flag("--validation", c.validation, "Run under the Vulkan validation layer")->envname("ISOFIELD_VALIDATION");
+  app.add_option("--log-level", c.log_level, "trace, debug, info, warn or error")
+      ->envname("ISOFIELD_LOG_LEVEL")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error"}));
+  app.add_option("--drain-seconds", c.drain_seconds, "How long running requests may take to finish on SIGTERM")
+      ->envname("ISOFIELD_DRAIN_SECONDS")
+      ->check(CLI::Range(0, 3600));
+  app.add_option("--max-threads", c.max_threads, "Threads, and so requests and open streams, at once")
+      ->envname("ISOFIELD_MAX_THREADS")
+      ->check(CLI::Range(4, 65536));
+  app.add_option("--max-nodes", c.limits.scene.max_nodes, "Nodes of a scene")->envname("ISOFIELD_MAX_NODES");
+  app.add_option("--max-primitives", c.limits.scene.max_primitives, "Primitives of a scene after instancing")
+      ->envname("ISOFIELD_MAX_PRIMITIVES");
+  app.add_option("--max-scenes", c.limits.max_scenes, "Scenes in the catalog")->envname("ISOFIELD_MAX_SCENES");
+  app.add_option("--max-message-bytes", c.limits.max_message_bytes, "Bytes of a message received")
+      ->envname("ISOFIELD_MAX_MESSAGE_BYTES")
+      ->check(CLI::Range(std::uint64_t{65536}, std::uint64_t{1} << 30));
+  app.add_option("--max-points-per-message", c.limits.max_points_per_message, "Points of one message")
+      ->envname("ISOFIELD_MAX_POINTS_PER_MESSAGE")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 22));
+  app.add_option("--max-grid-points", c.limits.max_grid_points, "Points of a grid request")
+      ->envname("ISOFIELD_MAX_GRID_POINTS");
+  app.add_option("--max-mesh-cells", c.limits.max_mesh_cells, "Cells that a mesh request may look at")
+      ->envname("ISOFIELD_MAX_MESH_CELLS")
+      ->check(CLI::Range(std::uint64_t{64}, std::uint64_t{1} << 30));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return {std::nullopt, status == 0 ? 0 : 2};
+  }
+  return {c, 0};
+}
+
+}  // namespace isofield::daemon

@@ -1,0 +1,132 @@
+#include "daemon/daemon.h"
+
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+#include "catalog/catalog.h"
+#include "daemon/socket.h"
+#include "engine/engine.h"
+#include "engine/status_macros.h"
+#include "rpc/field_service.h"
+#include "rpc/info_service.h"
+#include "rpc/mesh_service.h"
+#include "rpc/scene_service.h"
+#include "rpc/scene_source.h"
+
+namespace isofield::daemon {
+namespace {
+
+void start_logging(const Config& config) {
+  auto logger = spdlog::stderr_color_mt("isofieldd");
+  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %^%l%$ %v");
+  logger->set_level(spdlog::level::from_str(config.log_level));
+  spdlog::set_default_logger(std::move(logger));
+}
+
+// Mesa keeps compiled shaders in a folder of its own choice unless told; ours survives and is writable.
+absl::Status prepare_data_dir(const std::string& data_dir) {
+  if (data_dir.empty()) return absl::OkStatus();
+  const std::filesystem::path shaders = std::filesystem::path(data_dir) / "shader-cache";
+  std::error_code error;
+  std::filesystem::create_directories(shaders, error);
+  if (error) {
+    return absl::FailedPreconditionError(absl::StrCat("--data-dir ", data_dir, ": ", error.message()));
+  }
+  setenv("MESA_SHADER_CACHE_DIR", shaders.c_str(), 0);
+  return absl::OkStatus();
+}
+
+sigset_t stop_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGINT);
+  return set;
+}
+
+absl::StatusOr<std::unique_ptr<grpc::Server>> start_server(const Config& config,
+                                                           const std::vector<grpc::Service*>& services) {
+  ISOFIELD_RETURN_IF_ERROR(check_unix_socket_free(config.listen));
+  grpc::EnableDefaultHealthCheckService(true);
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  grpc::ServerBuilder builder;
+  int port = 0;
+  builder.AddListeningPort(config.listen, grpc::InsecureServerCredentials(), &port);
+  // Or a second daemon would share the port in silence.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  builder.SetMaxReceiveMessageSize(static_cast<int>(config.limits.max_message_bytes));
+  builder.SetMaxSendMessageSize(-1);
+  grpc::ResourceQuota quota("isofieldd");
+  quota.SetMaxThreads(config.max_threads);
+  builder.SetResourceQuota(quota);
+  for (grpc::Service* service : services) builder.RegisterService(service);
+  std::unique_ptr<grpc::Server> server = builder.BuildAndStart();
+  const bool is_unix = absl::StartsWith(config.listen, "unix:");
+  if (!server || (!is_unix && port <= 0)) {
+    return absl::UnavailableError(absl::StrCat("cannot listen on ", config.listen,
+                                               ": is the address this machine's, and free? (--listen HOST:PORT or "
+                                               "unix:PATH)"));
+  }
+  if (is_unix) {
+    spdlog::info("listening on {}", config.listen);
+  } else {
+    spdlog::info("listening on {}:{}", config.listen.substr(0, config.listen.rfind(':')), port);
+  }
+  return server;
+}
+
+}  // namespace
+
+absl::Status run(const Config& config, const std::string& version) {
+  const sigset_t signals = stop_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  start_logging(config);
+  ISOFIELD_RETURN_IF_ERROR(prepare_data_dir(config.data_dir));
+
+  gpu::DeviceOptions options;
+  options.name = config.device;
+  options.validation = config.validation;
+  options.on_validation_message = [](const std::string& message) { spdlog::error("Vulkan validation: {}", message); };
+  ISOFIELD_ASSIGN_OR_RETURN(const std::unique_ptr<engine::Engine> engine,
+                            engine::Engine::create(options, config.limits.scene));
+  const gpu::DeviceDescription& d = engine->device().description();
+  spdlog::info("isofieldd {} on {} ({}, Vulkan {})", version, d.name, d.driver, d.vulkan_version);
+
+  catalog::Catalog catalog(config.limits.max_scenes);
+  const rpc::SceneSource scenes(catalog, *engine);
+  rpc::SceneService scene_service(catalog, *engine);
+  rpc::FieldService field_service(scenes, *engine, config.limits);
+  rpc::MeshService mesh_service(scenes, *engine, config.limits);
+  rpc::InfoService info_service(*engine, config.limits, version);
+  ISOFIELD_ASSIGN_OR_RETURN(const std::unique_ptr<grpc::Server> server,
+                            start_server(config, {&scene_service, &field_service, &mesh_service, &info_service}));
+
+  int signal = 0;
+  sigwait(&signals, &signal);
+  spdlog::info("{}: finishing running requests, for {} s at most", strsignal(signal), config.drain_seconds);
+  std::thread([signals] {
+    int again = 0;
+    sigwait(&signals, &again);
+    _exit(128 + again);
+  }).detach();
+  server->GetHealthCheckService()->SetServingStatus(false);
+  server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(config.drain_seconds));
+  server->Wait();
+  spdlog::info("stopped");
+  return absl::OkStatus();
+}
+
+}  // namespace isofield::daemon

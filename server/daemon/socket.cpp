@@ -1,0 +1,33 @@
+#include "daemon/socket.h"
+
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
+#include <absl/strings/strip.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+
+namespace isofield::daemon {
+
+absl::Status check_unix_socket_free(const std::string& address) {
+  if (!absl::StartsWith(address, "unix:")) return absl::OkStatus();
+  std::string path(absl::StripPrefix(address, "unix:"));
+  if (absl::StartsWith(path, "//")) path = path.substr(2);
+  sockaddr_un name{};
+  if (path.empty() || path.size() >= sizeof(name.sun_path)) {
+    return absl::InvalidArgumentError(absl::StrCat("--listen ", address, ": expected a path of 1 to ",
+                                                   sizeof(name.sun_path) - 1, " characters"));
+  }
+  name.sun_family = AF_UNIX;
+  std::memcpy(name.sun_path, path.data(), path.size());
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return absl::OkStatus();  // gRPC will say why
+  const bool serves = connect(fd, reinterpret_cast<const sockaddr*>(&name), sizeof(name)) == 0;
+  close(fd);
+  if (serves) return absl::AlreadyExistsError(absl::StrCat("another process serves on ", address));
+  return absl::OkStatus();
+}
+
+}  // namespace isofield::daemon

@@ -1,0 +1,58 @@
+#include "engine/engine.h"
+
+#include "blobtree/compiler.h"
+#include "blobtree/scene_reader.h"
+#include "engine/status_macros.h"
+
+namespace isofield::engine {
+
+Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits)
+    : device_(std::move(device)),
+      limits_(limits),
+      kernels_(*device_),
+      fields_(*device_, kernels_),
+      mesher_(*device_, kernels_) {}
+
+absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions& options,
+                                                       const blobtree::SceneLimits& limits) {
+  ISOFIELD_ASSIGN_OR_RETURN(auto device, gpu::Device::create(options));
+  return std::unique_ptr<Engine>(new Engine(std::move(device), limits));
+}
+
+absl::StatusOr<SceneLease> Engine::make_resident(const v1::Scene& scene) {
+  ISOFIELD_ASSIGN_OR_RETURN(const blobtree::Scene valid, blobtree::read_scene(scene, limits_));
+  ISOFIELD_ASSIGN_OR_RETURN(blobtree::Tape tape, blobtree::compile(valid));
+  return ResidentScene::create(*device_, std::move(tape));
+}
+
+absl::StatusOr<SceneLease> Engine::acquire(std::uint64_t version, const v1::Scene& scene) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto it = resident_.find(version);
+    if (it != resident_.end()) return it->second;
+  }
+  return make_resident(scene);
+}
+
+void Engine::keep(std::uint64_t version, SceneLease scene) {
+  const std::lock_guard lock(mutex_);
+  resident_[version] = std::move(scene);
+}
+
+void Engine::drop(std::uint64_t version) {
+  SceneLease last;  // declared before the lock: released after it
+  const std::lock_guard lock(mutex_);
+  const auto it = resident_.find(version);
+  if (it == resident_.end()) return;
+  last = std::move(it->second);
+  resident_.erase(it);
+}
+
+Engine::Residency Engine::residency() const {
+  const std::lock_guard lock(mutex_);
+  Residency r{resident_.size(), 0};
+  for (const auto& [version, scene] : resident_) r.bytes += scene->device_bytes();
+  return r;
+}
+
+}  // namespace isofield::engine

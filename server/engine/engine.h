@@ -1,0 +1,57 @@
+// The device with all that runs on it: what rpc/ calls down to.
+#pragma once
+
+#include <absl/container/flat_hash_map.h>
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+
+#include "blobtree/scene.h"
+#include "engine/field_evaluator.h"
+#include "engine/kernel_cache.h"
+#include "engine/mesher.h"
+#include "engine/resident_scene.h"
+#include "gpu/device.h"
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield::engine {
+
+// Thread-safe.
+class Engine {
+ public:
+  static absl::StatusOr<std::unique_ptr<Engine>> create(const gpu::DeviceOptions& options,
+                                                        const blobtree::SceneLimits& limits);
+
+  // Validates, compiles and uploads. INVALID_ARGUMENT as stated in scene.proto.
+  absl::StatusOr<SceneLease> make_resident(const v1::Scene& scene);
+
+  // The resident form of a version of the catalog, made now if it is not there.
+  absl::StatusOr<SceneLease> acquire(std::uint64_t version, const v1::Scene& scene);
+  // Keeps a scene for acquire(); drops it again. Leases out live on.
+  void keep(std::uint64_t version, SceneLease scene);
+  void drop(std::uint64_t version);
+
+  struct Residency {
+    std::uint64_t scenes = 0, bytes = 0;
+  };
+  Residency residency() const;
+
+  gpu::Device& device() { return *device_; }
+  FieldEvaluator& fields() { return fields_; }
+  Mesher& mesher() { return mesher_; }
+
+ private:
+  Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits);
+
+  std::unique_ptr<gpu::Device> device_;
+  blobtree::SceneLimits limits_;
+  KernelCache kernels_;
+  FieldEvaluator fields_;
+  Mesher mesher_;
+  mutable std::mutex mutex_;
+  absl::flat_hash_map<std::uint64_t, SceneLease> resident_;
+};
+
+}  // namespace isofield::engine

@@ -1,0 +1,155 @@
+#include "rpc/field_service.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/mesh_lattice.h"
+#include "engine/status_macros.h"
+#include "rpc/status.h"
+#include "rpc/tensor.h"
+
+namespace isofield::rpc {
+namespace {
+
+// Points of one message of a grid's answer: 1 to 4 MiB.
+constexpr std::uint64_t kGridSlab = 1u << 18;
+
+absl::StatusOr<engine::Quantity> read_quantity(v1::Quantity quantity) {
+  switch (quantity) {
+    case v1::QUANTITY_UNSPECIFIED:
+    case v1::VALUE:
+      return engine::Quantity::kValue;
+    case v1::VALUE_AND_GRADIENT:
+      return engine::Quantity::kValueAndGradient;
+    default:
+      return absl::InvalidArgumentError(
+          absl::StrCat("quantity = ", static_cast<int>(quantity), ": expected VALUE or VALUE_AND_GRADIENT"));
+  }
+}
+
+absl::StatusOr<blobtree::dvec3> read_vector(const char* name, const google::protobuf::RepeatedField<double>& v) {
+  if (v.size() != 3) return absl::InvalidArgumentError(absl::StrCat(name, " holds ", v.size(), " numbers: expected 3"));
+  for (int i = 0; i < 3; ++i) {
+    if (!(std::abs(v[i]) <= blobtree::kMaxCoordinate)) {
+      return absl::InvalidArgumentError(absl::StrCat(name, "[", i, "] = ", v[i],
+                                                     ": expected a finite number of magnitude at most ",
+                                                     blobtree::kMaxCoordinate));
+    }
+  }
+  return blobtree::dvec3{v[0], v[1], v[2]};
+}
+
+absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& request, const Limits& limits) {
+  blobtree::Lattice lattice;
+  ISOFIELD_ASSIGN_OR_RETURN(lattice.origin, read_vector("origin", request.origin()));
+  google::protobuf::RepeatedField<double> spacing = request.spacing();
+  if (spacing.size() == 1) spacing.Resize(3, spacing[0]);
+  ISOFIELD_ASSIGN_OR_RETURN(lattice.spacing, read_vector("spacing", spacing));
+  for (int i = 0; i < 3; ++i) {
+    if (!(spacing[i] > 0)) {
+      return absl::InvalidArgumentError(absl::StrCat("spacing[", i, "] = ", spacing[i], ": expected a number > 0"));
+    }
+  }
+  if (request.counts_size() != 3) {
+    return absl::InvalidArgumentError(absl::StrCat("counts holds ", request.counts_size(), " numbers: expected 3"));
+  }
+  unsigned __int128 points = 1;
+  for (int i = 0; i < 3; ++i) {
+    const std::uint64_t count = request.counts(i);
+    if (count < 1 || count > engine::kMaxCellsPerAxis) {
+      return absl::InvalidArgumentError(absl::StrCat("counts[", i, "] = ", count, ": expected a count within [1, ",
+                                                     engine::kMaxCellsPerAxis, "]"));
+    }
+    lattice.cells[i] = static_cast<std::uint32_t>(count);
+    points *= count;
+  }
+  if (points > limits.max_grid_points) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("the grid has more points than the ", limits.max_grid_points, " admitted"));
+  }
+  const std::uint64_t layer = std::uint64_t{lattice.cells[0]} * lattice.cells[1];
+  if (layer > limits.max_points_per_message) {
+    return absl::ResourceExhaustedError(absl::StrCat("a layer of the grid has ", layer, " points, at most ",
+                                                     limits.max_points_per_message,
+                                                     " are admitted: ask for parts of it"));
+  }
+  return lattice;
+}
+
+}  // namespace
+
+absl::Status FieldService::evaluate(const engine::ResidentScene& scene, const v1::Tensor& points,
+                                    engine::Quantity quantity, v1::EvaluateResponse& response) {
+  ISOFIELD_ASSIGN_OR_RETURN(const PointArray array, PointArray::read(points, limits_.max_points_per_message));
+  const std::span<float> out =
+      make_float_tensor({array.size(), engine::components(quantity)}, *response.mutable_result());
+  return engine_.fields().evaluate(scene, array.xyz(), quantity, out);
+}
+
+grpc::Status FieldService::Evaluate(grpc::ServerContext*, const v1::EvaluateRequest* request,
+                                    v1::EvaluateResponse* response) {
+  const absl::StatusOr<engine::Quantity> quantity = read_quantity(request->quantity());
+  if (!quantity.ok()) return to_grpc(quantity.status());
+  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
+  if (!leased.ok()) return to_grpc(leased.status());
+  return to_grpc(evaluate(*leased->scene, request->points(), *quantity, *response));
+}
+
+grpc::Status FieldService::EvaluateStream(
+    grpc::ServerContext*, grpc::ServerReaderWriter<v1::EvaluateResponse, v1::EvaluateStreamRequest>* stream) {
+  v1::EvaluateStreamRequest request;
+  if (!stream->Read(&request)) {
+    return {grpc::StatusCode::INVALID_ARGUMENT, "the stream is empty: expected a first message that states the scene"};
+  }
+  const absl::StatusOr<engine::Quantity> quantity = read_quantity(request.quantity());
+  if (!quantity.ok()) return to_grpc(quantity.status());
+  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request.scene());
+  if (!leased.ok()) return to_grpc(leased.status());
+  std::uint64_t before = 0;
+  bool is_first = true;
+  do {
+    if (!is_first && (request.has_scene() || request.quantity() != v1::QUANTITY_UNSPECIFIED)) {
+      return {grpc::StatusCode::INVALID_ARGUMENT, "scene and quantity are stated in a stream's first message alone"};
+    }
+    is_first = false;
+    if (!request.has_points()) continue;
+    v1::EvaluateResponse response;
+    if (const absl::Status s = evaluate(*leased->scene, request.points(), *quantity, response); !s.ok()) {
+      return to_grpc(absl::Status(s.code(), absl::StrCat("after ", before, " points: ", s.message())));
+    }
+    before += response.result().shape(0);
+    if (!stream->Write(response)) return {grpc::StatusCode::CANCELLED, "the client is gone"};
+  } while (stream->Read(&request));
+  return grpc::Status::OK;
+}
+
+grpc::Status FieldService::EvaluateGrid(grpc::ServerContext* context, const v1::EvaluateGridRequest* request,
+                                        grpc::ServerWriter<v1::EvaluateGridResponse>* writer) {
+  const absl::StatusOr<engine::Quantity> quantity = read_quantity(request->quantity());
+  if (!quantity.ok()) return to_grpc(quantity.status());
+  const absl::StatusOr<blobtree::Lattice> lattice = read_lattice(*request, limits_);
+  if (!lattice.ok()) return to_grpc(lattice.status());
+  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
+  if (!leased.ok()) return to_grpc(leased.status());
+
+  const auto [nx, ny, nz] = lattice->cells;
+  // Whole layers of bricks, at least one.
+  const std::uint64_t bricks = std::max<std::uint64_t>(kGridSlab / (std::uint64_t{nx} * ny) / blobtree::kBrickCells, 1);
+  const auto step = static_cast<std::uint32_t>(std::min<std::uint64_t>(bricks * blobtree::kBrickCells, nz + 3));
+  for (std::uint32_t k = 0; k < nz; k += step) {
+    if (context->IsCancelled()) return {grpc::StatusCode::CANCELLED, "the client is gone"};
+    const std::uint32_t layers = std::min(step, nz - k);
+    v1::EvaluateGridResponse response;
+    response.set_first_layer(k);
+    const std::span<float> out =
+        make_float_tensor({layers, ny, nx, engine::components(*quantity)}, *response.mutable_result());
+    const absl::Status s = engine_.fields().evaluate_layers(*leased->scene, *lattice, k, *quantity, out);
+    if (!s.ok()) return to_grpc(s);
+    if (!writer->Write(response)) return {grpc::StatusCode::CANCELLED, "the client is gone"};
+  }
+  return grpc::Status::OK;
+}
+
+}  // namespace isofield::rpc

@@ -1,0 +1,31 @@
+// FieldService of the contract.
+#pragma once
+
+#include "engine/engine.h"
+#include "isofield/v1/field_service.grpc.pb.h"
+#include "rpc/limits.h"
+#include "rpc/scene_source.h"
+
+namespace isofield::rpc {
+
+class FieldService final : public v1::FieldService::Service {
+ public:
+  FieldService(const SceneSource& scenes, engine::Engine& engine, const Limits& limits)
+      : scenes_(scenes), engine_(engine), limits_(limits) {}
+
+  grpc::Status Evaluate(grpc::ServerContext*, const v1::EvaluateRequest*, v1::EvaluateResponse*) override;
+  grpc::Status EvaluateStream(grpc::ServerContext*,
+                              grpc::ServerReaderWriter<v1::EvaluateResponse, v1::EvaluateStreamRequest>*) override;
+  grpc::Status EvaluateGrid(grpc::ServerContext*, const v1::EvaluateGridRequest*,
+                            grpc::ServerWriter<v1::EvaluateGridResponse>*) override;
+
+ private:
+  absl::Status evaluate(const engine::ResidentScene& scene, const v1::Tensor& points, engine::Quantity quantity,
+                        v1::EvaluateResponse& response);
+
+  const SceneSource& scenes_;
+  engine::Engine& engine_;
+  const Limits& limits_;
+};
+
+}  // namespace isofield::rpc

@@ -1,0 +1,27 @@
+// InfoService of the contract.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "engine/engine.h"
+#include "isofield/v1/info_service.grpc.pb.h"
+#include "rpc/limits.h"
+
+namespace isofield::rpc {
+
+class InfoService final : public v1::InfoService::Service {
+ public:
+  InfoService(engine::Engine& engine, const Limits& limits, std::string version)
+      : engine_(engine), limits_(limits), version_(std::move(version)) {}
+
+  grpc::Status GetInfo(grpc::ServerContext*, const v1::GetInfoRequest*, v1::GetInfoResponse*) override;
+
+ private:
+  engine::Engine& engine_;
+  const Limits& limits_;
+  const std::string version_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace isofield::rpc

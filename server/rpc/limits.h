@@ -1,0 +1,19 @@
+// What the services admit; stated to clients by GetInfo.
+#pragma once
+
+#include <cstdint>
+
+#include "blobtree/scene.h"
+
+namespace isofield::rpc {
+
+struct Limits {
+  blobtree::SceneLimits scene;
+  std::uint64_t max_scenes = 1'000;
+  std::uint64_t max_message_bytes = 64u << 20;
+  std::uint64_t max_points_per_message = 1u << 20;
+  std::uint64_t max_grid_points = 1ull << 32;
+  std::uint64_t max_mesh_cells = 1u << 25;
+};
+
+}  // namespace isofield::rpc

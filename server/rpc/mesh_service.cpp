@@ -1,0 +1,142 @@
+#include "rpc/mesh_service.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "engine/status_macros.h"
+#include "rpc/status.h"
+
+namespace isofield::rpc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Writer = grpc::ServerWriter<v1::MeshResponse>;
+
+constexpr std::size_t kPartBytes = 1u << 20;
+constexpr auto kProgressEvery = std::chrono::milliseconds(100);
+constexpr std::uint32_t kMaxResolution = 1u << 20;
+
+absl::StatusOr<std::optional<blobtree::Box>> read_bounds(const v1::MeshRequest& request) {
+  if (request.bounds_min().empty() && request.bounds_max().empty()) return std::nullopt;
+  if (request.bounds_min_size() != 3 || request.bounds_max_size() != 3) {
+    return absl::InvalidArgumentError(absl::StrCat("bounds_min and bounds_max hold ", request.bounds_min_size(), " and ",
+                                                   request.bounds_max_size(), " numbers: expected 3 each, or none"));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double low = request.bounds_min(i), high = request.bounds_max(i);
+    const bool fits = std::abs(low) <= blobtree::kMaxCoordinate && std::abs(high) <= blobtree::kMaxCoordinate;
+    if (!fits || !(low < high)) {
+      return absl::InvalidArgumentError(absl::StrCat("bounds along ", std::string(1, "xyz"[i]), " = [", low, ", ", high,
+                                                     "]: expected finite numbers of magnitude at most ",
+                                                     blobtree::kMaxCoordinate, ", the first below the second"));
+    }
+  }
+  const auto& a = request.bounds_min();
+  const auto& b = request.bounds_max();
+  return blobtree::Box{{a[0], a[1], a[2]}, {b[0], b[1], b[2]}};
+}
+
+absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const blobtree::Box& box) {
+  switch (request.cells_case()) {
+    case v1::MeshRequest::kCellSize:
+      if (!(request.cell_size() > 0) || !(request.cell_size() <= blobtree::kMaxCoordinate)) {
+        return absl::InvalidArgumentError(
+            absl::StrCat("cell_size = ", request.cell_size(), ": expected a finite length > 0"));
+      }
+      return request.cell_size();
+    case v1::MeshRequest::kResolution: {
+      if (request.resolution() < 1 || request.resolution() > kMaxResolution) {
+        return absl::InvalidArgumentError(
+            absl::StrCat("resolution = ", request.resolution(), ": expected a count within [1, ", kMaxResolution, "]"));
+      }
+      if (box.empty()) return 1.0;
+      return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}) / request.resolution();
+    }
+    default:
+      return absl::InvalidArgumentError("cells: expected cell_size or resolution");
+  }
+}
+
+absl::StatusOr<engine::MeshRequest> read_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
+                                                 const Limits& limits) {
+  engine::MeshRequest r;
+  ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request));
+  ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_cell_size(request, r.bounds.value_or(tape.support)));
+  if (request.iso() != 0) {
+    if (!(request.iso() > 0 && request.iso() < 1)) {
+      return absl::InvalidArgumentError(absl::StrCat("iso = ", request.iso(), ": expected a value within ]0, 1[, or 0 for 0.5"));
+    }
+    r.iso = request.iso();
+  }
+  r.with_normals = !request.omit_normals();
+  r.max_cells = limits.max_mesh_cells;
+  return r;
+}
+
+template <class T>
+void fill(v1::Tensor& tensor, v1::Tensor::DType dtype, std::span<const T> rows) {
+  tensor.set_dtype(dtype);
+  tensor.add_shape(rows.size() / 3);
+  tensor.add_shape(3);
+  tensor.set_data(rows.data(), rows.size_bytes());
+}
+
+// Writes an array of rows of 3 in parts. False: the client is gone.
+template <class T>
+bool write_rows(Writer& writer, const std::vector<T>& rows, v1::Tensor::DType dtype,
+                v1::Tensor* (v1::MeshPart::*field)()) {
+  constexpr std::size_t kRows = kPartBytes / (3 * sizeof(T)) * 3;
+  for (std::size_t at = 0; at < rows.size(); at += kRows) {
+    v1::MeshResponse response;
+    fill(*(response.mutable_part()->*field)(), dtype, std::span(rows).subspan(at, std::min(kRows, rows.size() - at)));
+    if (!writer.Write(response)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshRequest* request, Writer* writer) {
+  const Clock::time_point start = Clock::now();
+  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
+  if (!leased.ok()) return to_grpc(leased.status());
+  const absl::StatusOr<engine::MeshRequest> r = read_request(*request, leased->scene->tape(), limits_);
+  if (!r.ok()) return to_grpc(r.status());
+
+  Clock::time_point last = start;
+  const engine::MeshCallbacks callbacks{
+      .progress =
+          [&](double fraction) {
+            const Clock::time_point now = Clock::now();
+            if (now - last < kProgressEvery) return;
+            last = now;
+            v1::MeshResponse response;
+            response.mutable_progress()->set_fraction(fraction);
+            writer->Write(response);
+          },
+      .cancelled = [&] { return context->IsCancelled(); },
+  };
+  const absl::StatusOr<engine::Mesh> mesh = engine_.mesher().mesh(*leased->scene, *r, callbacks);
+  if (!mesh.ok()) return to_grpc(mesh.status());
+
+  v1::MeshResponse response;
+  v1::MeshSummary& summary = *response.mutable_summary();
+  summary.set_vertices(mesh->positions.size() / 3);
+  summary.set_triangles(mesh->triangles.size() / 3);
+  summary.set_cell_size(r->cell_size);
+  summary.set_cells(mesh->cells);
+  summary.set_seconds(std::chrono::duration<double>(Clock::now() - start).count());
+  summary.set_scene_version(leased->version);
+  if (writer->Write(response) &&
+      write_rows(*writer, mesh->positions, v1::Tensor::FLOAT32, &v1::MeshPart::mutable_positions) &&
+      write_rows(*writer, mesh->normals, v1::Tensor::FLOAT32, &v1::MeshPart::mutable_normals) &&
+      write_rows(*writer, mesh->triangles, v1::Tensor::UINT32, &v1::MeshPart::mutable_triangles)) {
+    return grpc::Status::OK;
+  }
+  return {grpc::StatusCode::CANCELLED, "the client is gone"};
+}
+
+}  // namespace isofield::rpc

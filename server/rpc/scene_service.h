@@ -1,0 +1,30 @@
+// SceneService of the contract.
+#pragma once
+
+#include "catalog/catalog.h"
+#include "engine/engine.h"
+#include "isofield/v1/scene_service.grpc.pb.h"
+
+namespace isofield::rpc {
+
+class SceneService final : public v1::SceneService::Service {
+ public:
+  SceneService(catalog::Catalog& catalog, engine::Engine& engine) : catalog_(catalog), engine_(engine) {}
+
+  grpc::Status PutScene(grpc::ServerContext*, const v1::PutSceneRequest*, v1::PutSceneResponse*) override;
+  grpc::Status GetScene(grpc::ServerContext*, const v1::GetSceneRequest*, v1::GetSceneResponse*) override;
+  grpc::Status ListScenes(grpc::ServerContext*, const v1::ListScenesRequest*, v1::ListScenesResponse*) override;
+  grpc::Status DeleteScene(grpc::ServerContext*, const v1::DeleteSceneRequest*, v1::DeleteSceneResponse*) override;
+  grpc::Status EditParameters(grpc::ServerContext*, const v1::EditParametersRequest*,
+                              v1::EditParametersResponse*) override;
+
+ private:
+  absl::Status store(const std::string& name, const v1::Scene& scene, const catalog::Condition& condition,
+                     v1::SceneSummary& summary);
+  absl::Status summarise(const catalog::Entry& entry, v1::SceneSummary& summary);
+
+  catalog::Catalog& catalog_;
+  engine::Engine& engine_;
+};
+
+}  // namespace isofield::rpc
