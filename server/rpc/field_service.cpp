@@ -45,7 +45,10 @@ absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& re
   blobtree::Lattice lattice;
   ISOFIELD_ASSIGN_OR_RETURN(lattice.origin, read_vector("origin", request.origin()));
   google::protobuf::RepeatedField<double> spacing = request.spacing();
-  if (spacing.size() == 1) spacing.Resize(3, spacing[0]);
+  if (spacing.size() == 1) {
+    const double same = spacing[0];
+    spacing.Resize(3, same);
+  }
   ISOFIELD_ASSIGN_OR_RETURN(lattice.spacing, read_vector("spacing", spacing));
   for (int i = 0; i < 3; ++i) {
     if (!(spacing[i] > 0)) {
