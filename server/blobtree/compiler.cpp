@@ -166,6 +166,11 @@ class Compiler {
     tape_.code.push_back(i);
     tape_.operand_set |= 1u << static_cast<std::uint32_t>(i.operand());
     tape_.operator_set |= 1u << static_cast<std::uint32_t>(i.op());
+    if (i.op() == Operator::kSubtract || i.op() == Operator::kSubtractFrom) {
+      // Where the subtrahend is gone, the pruner clamps fields above 1 by subtracting 0.
+      tape_.operand_set |= 1u << static_cast<std::uint32_t>(Operand::kZero);
+      tape_.operator_set |= 1u << static_cast<std::uint32_t>(Operator::kSubtract);
+    }
   }
 
   // The node on top is complete: join its value, and tell its parent what it needs to know.

@@ -61,9 +61,16 @@ class Culler {
             {o.x + step.x * (cell.x + 1), o.y + step.y * (cell.y + 1), o.z + step.z * (cell.z + 1)}};
   }
 
-  bool is_kept(const Interval& range) const {
+  bool is_kept(const Cell& cell, const Interval& range) const {
     if (request_.keep == Keep::kSupport) return range.hi > 0;
-    return range.hi >= request_.iso && range.lo <= request_.iso;
+    return range.hi >= request_.iso && (range.lo <= request_.iso || (request_.is_capped && is_at_boundary(cell)));
+  }
+
+  bool is_at_boundary(const Cell& cell) const {
+    const auto at_end = [&](std::uint32_t i, int axis) {
+      return i == 0 || (std::uint64_t{i} + 1) << cell.level >= bricks_[axis];
+    };
+    return at_end(cell.x, 0) || at_end(cell.y, 1) || at_end(cell.z, 2);
   }
 
   void visit(const Cell& cell) {
@@ -73,7 +80,7 @@ class Culler {
     const std::size_t begin = parent.begin + parent.count;
     arena_.resize(begin);
     const Interval range = pruner_.prune(arena_, parent.begin, parent.count, box_of(cell), arena_);
-    if (!is_kept(range)) return;
+    if (!is_kept(cell, range)) return;
     const std::size_t count = arena_.size() - begin;
     // Nothing dropped out: go on with the parent's, which may be in the result already.
     const bool same = count == parent.count && std::equal(arena_.begin() + begin, arena_.end(),

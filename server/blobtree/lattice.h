@@ -43,6 +43,8 @@ struct CullRequest {
   Lattice lattice;
   Keep keep = Keep::kSurface;
   double iso = 0.5;
+  // kSurface: what lies at the lattice's boundary counts as outside, so that the surface closes there.
+  bool is_capped = false;
   std::uint64_t max_bricks = ~0ull;
   // Asked now and then; true gives up with CANCELLED.
   std::function<bool()> cancelled;

@@ -102,15 +102,17 @@ absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
     for (dvec3& row : place.linear) row = row * (1 / factor);
   }
   const std::optional<Affine> inverse = place.inverse();
-  const auto fits = [](double length) { return length >= kMinLength && length <= kMaxCoordinate; };
   const auto near_enough = [](double x) { return std::abs(x) <= kMaxCoordinate; };
-  if (!inverse || !fits(leaf.range) || !near_enough(place.offset.x) || !near_enough(place.offset.y) ||
-      !near_enough(place.offset.z) || !fits(leaf.range * stretch.most) || !fits(leaf.range * stretch.least)) {
+  const double largest = std::max(*std::max_element(node.size.begin(), node.size.end()), node.range);
+  // Maps that each are well conditioned may multiply to one that is not, and whose least stretch is lost in rounding.
+  if (!inverse || !(stretch.least * (kMaxCondition * 1.001) >= stretch.most) ||
+      !(node.range * stretch.least >= kMinLength) || !near_enough(largest * stretch.most) ||
+      !near_enough(place.offset.x) || !near_enough(place.offset.y) || !near_enough(place.offset.z)) {
     return absl::InvalidArgumentError(
         absl::StrCat(node.path, ": the transforms above scale it by ", stretch.least, " to ", stretch.most,
                      " and place it at (", place.offset.x, ", ", place.offset.y, ", ", place.offset.z,
-                     "): expected lengths within [", kMinLength, ", ", kMaxCoordinate, "] and coordinates of at most ",
-                     kMaxCoordinate));
+                     "): expected lengths within [", kMinLength, ", ", kMaxCoordinate, "], coordinates of at most ",
+                     kMaxCoordinate, " and a condition number of at most ", kMaxCondition));
   }
   leaf.anchor = place.offset;
   leaf.to_local = {inverse->linear, {}};

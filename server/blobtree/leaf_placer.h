@@ -8,7 +8,8 @@
 
 namespace isofield::blobtree {
 
-// `to_world` maps the node's frame to the world. INVALID_ARGUMENT: lengths leave [kMinLength, kMaxCoordinate].
+// `to_world` maps the node's frame to the world. INVALID_ARGUMENT: lengths leave [kMinLength, kMaxCoordinate], or the
+// map's condition number is above kMaxCondition.
 absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world);
 
 // vec4s of a leaf's record in the leaf buffer.

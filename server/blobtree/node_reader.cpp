@@ -38,7 +38,11 @@ class FieldReader {
                   absl::StrCat("a finite number of magnitude at most ", kMaxCoordinate));
   }
   dvec3 point(absl::string_view field, const Numbers& numbers, const dvec3& otherwise = {}) {
-    if (!has_size(field, numbers, 3, true)) return otherwise;
+    return has_size(field, numbers, 3, true) ? stated_point(field, numbers) : otherwise;
+  }
+  // A point without a default.
+  dvec3 stated_point(absl::string_view field, const Numbers& numbers) {
+    if (!has_size(field, numbers, 3, false)) return {};
     return {coordinate(absl::StrCat(field, ".x"), numbers[0]), coordinate(absl::StrCat(field, ".y"), numbers[1]),
             coordinate(absl::StrCat(field, ".z"), numbers[2])};
   }
@@ -67,7 +71,7 @@ class FieldReader {
 };
 
 void read_segment(const v1::Segment& m, Node& node, FieldReader& in) {
-  const dvec3 a = in.point("a", m.a()), b = in.point("b", m.b());
+  const dvec3 a = in.stated_point("a", m.a()), b = in.stated_point("b", m.b());
   const dvec3 axis = b - a;
   node.shape = Shape::kSegment;
   node.size = {length(axis), in.positive("radius_a", m.radius_a()), in.positive("radius_b", m.radius_b())};
@@ -87,7 +91,7 @@ void read_box(const v1::Box& m, Node& node, FieldReader& in) {
 }
 
 void read_cylinder(const v1::Cylinder& m, Node& node, FieldReader& in) {
-  const dvec3 a = in.point("a", m.a()), b = in.point("b", m.b());
+  const dvec3 a = in.stated_point("a", m.a()), b = in.stated_point("b", m.b());
   const dvec3 axis = b - a;
   node.shape = Shape::kCylinder;
   node.size = {length(axis) / 2, in.positive("radius", m.radius())};

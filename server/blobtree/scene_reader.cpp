@@ -1,9 +1,13 @@
 #include "blobtree/scene_reader.h"
 
 #include <absl/container/flat_hash_map.h>
+#include <absl/strings/ascii.h>
 #include <absl/strings/numbers.h>
 #include <absl/strings/str_cat.h>
 #include <absl/strings/string_view.h>
+
+#include <algorithm>
+#include <optional>
 
 #include "blobtree/node_reader.h"
 
@@ -33,14 +37,21 @@ class References {
     return absl::OkStatus();
   }
 
-  // -1: refers to nothing.
-  std::int64_t find(absl::string_view reference, std::size_t node_count) const {
+  // Nothing when the reference is to no node.
+  std::optional<std::uint32_t> find(absl::string_view reference, std::size_t node_count) const {
     if (!reference.empty() && reference[0] == '#') {
-      std::uint32_t index;
-      return absl::SimpleAtoi(reference.substr(1), &index) && index < node_count ? index : -1;
+      const absl::string_view digits = reference.substr(1);
+      std::uint32_t index = 0;
+      // SimpleAtoi admits spaces and signs.
+      if (!std::all_of(digits.begin(), digits.end(), absl::ascii_isdigit) || !absl::SimpleAtoi(digits, &index) ||
+          index >= node_count) {
+        return std::nullopt;
+      }
+      return index;
     }
     const auto it = names_.find(reference);
-    return it == names_.end() ? -1 : it->second;
+    if (it == names_.end()) return std::nullopt;
+    return it->second;
   }
 
  private:
@@ -136,20 +147,21 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
   }
   for (std::size_t i = 0; i < count; ++i) {
     for (const std::string* reference : child_references(message.nodes(i))) {
-      const std::int64_t child = references.find(*reference, count);
-      if (child < 0) {
+      const std::optional<std::uint32_t> child = references.find(*reference, count);
+      if (!child) {
         return absl::InvalidArgumentError(absl::StrCat(scene.nodes[i].path, ": child '", *reference,
                                                        "' is no node: expected a node's name, or #0 to #", count - 1));
       }
-      scene.nodes[i].children.push_back(static_cast<std::uint32_t>(child));
+      scene.nodes[i].children.push_back(*child);
     }
   }
-  const std::int64_t root = message.root().empty() ? count - 1 : references.find(message.root(), count);
-  if (root < 0) {
+  const std::optional<std::uint32_t> root =
+      references.find(message.root().empty() ? absl::StrCat("#", count - 1) : message.root(), count);
+  if (!root) {
     return absl::InvalidArgumentError(absl::StrCat("root = '", message.root(),
                                                    "' is no node: expected a node's name, or #0 to #", count - 1));
   }
-  scene.root = static_cast<std::uint32_t>(root);
+  scene.root = *root;
   if (absl::Status s = sort_nodes(scene); !s.ok()) return s;
   if (absl::Status s = check_instances(scene, limits); !s.ok()) return s;
   return scene;

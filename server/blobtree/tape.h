@@ -16,7 +16,7 @@ namespace isofield::blobtree {
 
 // What an instruction takes as its right operand. Mirrored in shaders/lib/opcodes.glsl.
 enum class Operand : std::uint32_t {
-  kPop = 0,      // the top of the stack
+  kPop = 0,      // the accumulator; what is popped off the stack takes its place as the left operand
   kZero = 1,     // the constant 0: a right operand that was culled
   kSphere = 2,   // leaves; rigidly placed unless said otherwise
   kSegment = 3,
@@ -103,8 +103,9 @@ struct Tape {
   std::vector<Operation> operations;
   std::uint32_t leaf_records = 0;    // vec4s in the leaf buffer
   std::uint32_t stack_depth = 0;     // values waiting beside the accumulator, at most
-  std::uint32_t operand_set = 0;     // bit per Operand
-  std::uint32_t operator_set = 0;    // bit per Operator
+  // A bit per Operand and per Operator that the code, or what the pruner leaves of it, may hold.
+  std::uint32_t operand_set = 0;
+  std::uint32_t operator_set = 0;
   Box support;                       // of the root; empty for a field that is 0 everywhere
 };
 

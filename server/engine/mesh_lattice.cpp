@@ -26,6 +26,7 @@ absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshReq
   return blobtree::cull(tape, CullRequest{.lattice = lattice,
                                           .keep = blobtree::Keep::kSurface,
                                           .iso = request.iso,
+                                          .is_capped = request.bounds.has_value(),
                                           .max_bricks = max_bricks,
                                           .cancelled = cancelled});
 }

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "operators/root.h"
+
 namespace isofield::operators {
 namespace {
 
@@ -47,16 +49,15 @@ Blend gradient_blend(double f1, double f2, double theta, const Silhouette& silho
   const Boundary at_max = boundary(f1, t);
   if (f2 <= 0 || f2 <= at_max.k) return {f1, 1, 0, 0, 0, 0, 0, 0, 0};
 
-  // F(C) = C - k - M(f1 - k, f2 - k) increases on [f1, k^-1(f2)]; with M = a for b <= 0 it is positive beyond.
-  double lo = f1, hi = 2 * f1 + 1;
-  for (int i = 0; i < 200; ++i) {
-    const double c = 0.5 * (lo + hi);
-    if (c <= lo || c >= hi) break;
-    const double k = boundary(c, t).k;
-    const double m = (f1 - k) * clamped_profile(silhouette, f1 - k, f2 - k).v;
-    (c - k - m < 0 ? lo : hi) = c;
-  }
-  const double c = 0.5 * (lo + hi);
+  // F(C) = C - k - M(f1 - k, f2 - k) increases on [f1, k^-1(f2)]; with M = a for b <= 0 it is positive beyond, and so it
+  // is at 2 f1, since q < 2.
+  const double c = root_of(f1, 2 * f1, [&](double c) {
+    const Boundary k = boundary(c, t);
+    const double a = f1 - k.k, b = f2 - k.k;
+    const Curve q = clamped_profile(silhouette, a, b);
+    const double u = b > 0 ? std::min(b / a, 1.0) : 0;
+    return std::pair{c - k.k - a * q.v, 1 - k.k_f * (1 - q.v - (1 - u) * q.d1)};
+  });
   const Boundary k = boundary(c, t);
   const double a = f1 - k.k, b = f2 - k.k;
   const Curve q = clamped_profile(silhouette, a, b);

@@ -14,13 +14,13 @@ constexpr double kPi = std::numbers::pi;
 Curve kappa(double x) {
   if (x <= 0) return {0, 0, 0};
   if (x >= 1) return {1, 0, 0};
-  // kappa = 1 - exp(1 - 1/s), s = 1 - exp(1 - 1/x); -expm1 keeps small values exact.
+  // kappa = 1 - exp(1 - 1/s) with s = 1 - e, e = exp(1 - 1/x). Written with 1 - 1/s = -e/s, small values are right to the
+  // last bits, which a small exponent w makes visible ones.
   const double e = std::exp(1 - 1 / x);
   const double s = -std::expm1(1 - 1 / x);
+  if (e == 0) return {0, 0, 0};
   if (s <= 0) return {1, 0, 0};
-  const double outer = std::exp(1 - 1 / s);
-  const double ds = -e / (x * x);
-  return {-std::expm1(1 - 1 / s), -outer * ds / (s * s), 0};
+  return {-std::expm1(-e / s), std::exp(-e / s) * e / (x * x * s * s), 0};
 }
 
 Curve Opening::theta(double alpha) const {

@@ -3,20 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "operators/root.h"
 
 namespace isofield::operators {
 namespace {
-
-// Root of an increasing function on [lo, hi] to the last bit or so.
-template <class Function>
-double bisect(double lo, double hi, Function f) {
-  for (int i = 0; i < 200 && lo < hi; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    if (middle <= lo || middle >= hi) break;
-    (f(middle) < 0 ? lo : hi) = middle;
-  }
-  return 0.5 * (lo + hi);
-}
 
 // The upper half y(x) of a silhouette: x within [0, 1], y >= x.
 Curve upper_half(const Silhouette& s, double x) {
@@ -25,8 +17,8 @@ Curve upper_half(const Silhouette& s, double x) {
     return {1 - e.v, -e.d1, -e.d2};
   }
   // [G] eq. 31, its two cases in the right order: y = 1 - K exp(1 - 1/x) (1 - x).
-  if (x <= 0) return {1, 0, 0};
-  const double e = s.k * std::exp(1 - 1 / x);
+  const double e = x > 0 ? s.k * std::exp(1 - 1 / x) : 0;
+  if (e == 0) return {1, 0, 0};
   const double x2 = x * x;
   const double slope = (1 - x) / x2 - 1;
   return {1 - e * (1 - x), -e * slope, -e * (slope / x2 - 1 / x2 - 2 * (1 - x) / (x2 * x))};
@@ -45,7 +37,10 @@ Curve smooth_step_e(double x) {
 
 Curve phi(double x) {
   if (x <= 0) return {x, 1, 0};
-  const double y = bisect(0, 1, [x](double y) { return y + smooth_step_e(y).v - x; });
+  const double y = root_of(0, 1, [x](double y) {
+    const Curve e = smooth_step_e(y);
+    return std::pair{y + e.v - x, 1 + e.d1};
+  });
   const Curve e = smooth_step_e(y);
   // E is infinite at 1, where phi is flat.
   if (!std::isfinite(e.d1) || !std::isfinite(e.d2)) return {y, 0, 0};
@@ -56,7 +51,10 @@ Curve phi(double x) {
 Curve Silhouette::profile(double u) const {
   if (u <= 0) return {1, 0, 0};
   // The ray of slope u meets the curve where x = u y(x); there M = 1, so q(u) = 1 / y.
-  const double x = bisect(0, 1, [&](double x) { return x - u * upper_half(*this, x).v; });
+  const double x = root_of(0, 1, [&](double x) {
+    const Curve y = upper_half(*this, x);
+    return std::pair{x - u * y.v, 1 - u * y.d1};
+  });
   const Curve y = upper_half(*this, x);
   // 0 only at the fold of a bulge with K = 1, where the profile ends with a vertical tangent.
   const double denominator = std::max(1 - u * y.d1, 1e-6);

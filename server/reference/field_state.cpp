@@ -50,7 +50,7 @@ FieldState ricci(double t, const FieldState& a, const FieldState& b) {
 }
 
 // The opening angle with its derivatives: theta(alpha), drawn to theta_min where a steering vector vanishes
-// ([G] section 7).
+// ([G] section 7). Drawn in tan(theta), which is what the operator uses.
 Dual opening_angle(const OperatorUse& use, const DualVec3& a, const DualVec3& b) {
   const double least = use.opening->theta_min();
   const Dual square(use.length * use.length);
@@ -61,7 +61,10 @@ Dual opening_angle(const OperatorUse& use, const DualVec3& a, const DualVec3& b)
   const DualVec3 normal = cross(u, v);
   const Dual alpha = atan2(sqrt(dot(normal, normal)), dot(u, v));
   const operators::Curve theta = use.opening->theta(alpha.v);
-  return Dual(least) + (chain(alpha, theta.v, theta.d1) - Dual(least)) * weight;
+  const double tangent = std::tan(theta.v);
+  const Dual least_tangent(std::tan(least));
+  const Dual t = least_tangent + (chain(alpha, tangent, (1 + tangent * tangent) * theta.d1) - least_tangent) * weight;
+  return chain(t, std::atan(t.v), 1 / (1 + t.v * t.v));
 }
 
 FieldState gradient_blend(const OperatorUse& use, const FieldState& a, const FieldState& b) {

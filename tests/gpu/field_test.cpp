@@ -1,0 +1,178 @@
+// Fields of random scenes on the device, against the reference.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <iostream>
+
+#include "engine/field_evaluator.h"
+#include "gpu/gpu_environment.h"
+#include "reference/evaluator.h"
+#include "support/random_scene.h"
+#include "support/scene_text.h"
+#include "support/smoothness.h"
+
+namespace isofield::gpu_test {
+namespace {
+
+using blobtree::dvec3;
+using engine::Quantity;
+
+engine::FieldEvaluator& fields() {
+  static engine::FieldEvaluator evaluator(device(), kernels());
+  return evaluator;
+}
+
+std::vector<float> random_points(std::uint64_t seed, int count, double reach = 2.5) {
+  test_support::Random random(seed);
+  std::vector<float> xyz;
+  for (int i = 0; i < 3 * count; ++i) xyz.push_back(static_cast<float>(random.number(-reach, reach)));
+  return xyz;
+}
+
+std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<float>& xyz, Quantity quantity) {
+  std::vector<float> out(xyz.size() / 3 * components(quantity), -1);
+  const absl::Status status = fields().evaluate(scene, xyz, quantity, out);
+  EXPECT_TRUE(status.ok()) << status;
+  return out;
+}
+
+TEST(FieldOnDevice, AgreesWithTheReferenceOnRandomScenes) {
+  double worst_value = 0, worst_gradient = 0;
+  int smooth = 0, points = 0;
+  for (const int nodes : {1, 2, 3, 5, 10, 20, 40, 80, 120, 200}) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      const v1::Scene message = test_support::random_scene(1000 * nodes + seed, {.nodes = nodes});
+      const engine::SceneLease scene = resident(message);
+      const reference::Evaluator exact(test_support::read_or_die(message));
+      const std::vector<float> xyz = random_points(seed + 17, 400);
+      const std::vector<float> values = evaluate(*scene, xyz, Quantity::kValue);
+      const std::vector<float> both = evaluate(*scene, xyz, Quantity::kValueAndGradient);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const dvec3 p{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+        const reference::Sample s = exact.evaluate(p);
+        ++points;
+        worst_value = std::max({worst_value, std::abs(values[i] - s.value), std::abs(both[4 * i] - s.value)});
+        ASSERT_NEAR(values[i], s.value, 2e-5) << nodes << " nodes, seed " << seed << ", point " << i;
+        ASSERT_NEAR(both[4 * i], s.value, 2e-5) << nodes << " nodes, seed " << seed << ", point " << i;
+        const dvec3 g{both[4 * i + 1], both[4 * i + 2], both[4 * i + 3]};
+        ASSERT_TRUE(std::isfinite(g.x) && std::isfinite(g.y) && std::isfinite(g.z));
+        // Smooth: moving by more than float32 moves coordinates does not change the gradient by half the tolerance.
+        const double scale = std::max(length(s.gradient), 0.05);
+        if (test_support::gradient_variation(exact, p, 2e-6) > 5e-4 * scale) continue;
+        ++smooth;
+        const double error = length(g - s.gradient) / scale;
+        worst_gradient = std::max(worst_gradient, error);
+        ASSERT_LE(error, 1e-3) << nodes << " nodes, seed " << seed << ", point " << i << " at " << p.x << " " << p.y
+                               << " " << p.z << ": " << g.x << " " << g.y << " " << g.z << ", exact " << s.gradient.x
+                               << " " << s.gradient.y << " " << s.gradient.z;
+      }
+    }
+  }
+  std::cout << points << " points: max error of values " << worst_value << "; " << smooth
+            << " smooth ones: max relative error of gradients " << worst_gradient << "\n";
+  EXPECT_GT(smooth, points * 9 / 10);
+}
+
+TEST(FieldOnDevice, GivesTheSameBitsWhateverTheBatch) {
+  const engine::SceneLease scene = resident(test_support::random_scene(5, {.nodes = 120}));
+  const std::vector<float> xyz = random_points(3, 5000);
+  const std::vector<float> all = evaluate(*scene, xyz, Quantity::kValueAndGradient);
+  for (const std::size_t first : {0u, 1u, 777u, 4990u}) {
+    const std::size_t count = std::min<std::size_t>(10, 5000 - first);
+    const std::vector<float> part(xyz.begin() + 3 * first, xyz.begin() + 3 * (first + count));
+    const std::vector<float> some = evaluate(*scene, part, Quantity::kValueAndGradient);
+    EXPECT_EQ(std::memcmp(some.data(), all.data() + 4 * first, some.size() * sizeof(float)), 0);
+  }
+}
+
+TEST(FieldOnDevice, AgreesOnALatticeWithItsPoints) {
+  const engine::SceneLease scene = resident(test_support::random_scene(8, {.nodes = 60}));
+  const blobtree::Lattice lattice{{-2.1, -1.9, -2.3}, {0.17, 0.15, 0.19}, {27, 30, 22}};
+  std::vector<float> xyz;
+  for (std::uint32_t k = 0; k < 22; ++k) {
+    for (std::uint32_t j = 0; j < 30; ++j) {
+      for (std::uint32_t i = 0; i < 27; ++i) {
+        xyz.push_back(std::fma(0.17f, static_cast<float>(i), -2.1f));
+        xyz.push_back(std::fma(0.15f, static_cast<float>(j), -1.9f));
+        xyz.push_back(std::fma(0.19f, static_cast<float>(k), -2.3f));
+      }
+    }
+  }
+  for (const Quantity quantity : {Quantity::kValue, Quantity::kValueAndGradient}) {
+    const std::vector<float> points = evaluate(*scene, xyz, quantity);
+    std::vector<float> grid(points.size(), -1);
+    const std::size_t layer = 27 * 30 * components(quantity);
+    const absl::Status low = fields().evaluate_layers(*scene, lattice, 0, quantity, std::span(grid).first(8 * layer));
+    const absl::Status high = fields().evaluate_layers(*scene, lattice, 8, quantity, std::span(grid).subspan(8 * layer));
+    ASSERT_TRUE(low.ok() && high.ok());
+    // Drivers may fuse origin + spacing * i or not: coordinates may differ by an ulp, and gradients by what that makes.
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      ASSERT_NEAR(grid[i], points[i], i % components(quantity) == 0 ? 2e-5 : 2e-3) << i;
+    }
+  }
+}
+
+TEST(FieldOnDevice, IsFiniteEverywhere) {
+  const engine::SceneLease scene = resident(test_support::random_scene(21, {.nodes = 200}));
+  std::vector<float> xyz;
+  const float values[] = {0, 1e-38f, -1e-20f, 1, -2, 1e6f, -1e19f, 3.4e38f, -3.4e38f};
+  for (const float x : values) {
+    for (const float y : values) {
+      for (const float z : values) xyz.insert(xyz.end(), {x, y, z});
+    }
+  }
+  for (const float v : evaluate(*scene, xyz, Quantity::kValueAndGradient)) ASSERT_TRUE(std::isfinite(v));
+}
+
+TEST(FieldOnDevice, IsFiniteForDegenerateBlends) {
+  // Coincident primitives, opposed gradients, centres, every opening at once.
+  std::string nodes = R"([{"name": "a", "sphere": {"radius": 0.5, "range": 0.5}},
+    {"name": "b", "sphere": {"radius": 0.5, "range": 0.5}},
+    {"name": "c", "sphere": {"center": [0.5, 0, 0], "radius": 0.2, "range": 2}},
+    {"name": "d", "segment": {"a": [-1, 0, 0], "b": [1, 0, 0], "radius_a": 0.3, "radius_b": 0.3, "range": 1}},
+    {"name": "e", "sum": {"children": ["a", "b", "c"]}},)";
+  for (const char* opening : {R"({"preset": "CAMEL"})", R"({"preset": "ORGANIC"})", R"({"preset": "CONTACT"})"}) {
+    for (const char* silhouette : {"{}", R"({"kind": "BULGE", "k": 1})"}) {
+      const engine::SceneLease scene = resident(test_support::scene_of_nodes(
+          nodes + R"({"gradient": {"children": ["a", "b", "c", "d", "e"], "opening": )" + opening +
+          R"(, "silhouette": )" + silhouette + "}}]"));
+      std::vector<float> xyz = random_points(2, 2000, 1.5);
+      for (int i = 0; i < 300; ++i) xyz[3 * i + 1] = xyz[3 * i + 2] = 0;  // on the axes
+      xyz[0] = xyz[1] = xyz[2] = 0;
+      for (const float v : evaluate(*scene, xyz, Quantity::kValueAndGradient)) ASSERT_TRUE(std::isfinite(v));
+    }
+  }
+}
+
+TEST(FieldOnDevice, TakesDeepTrees) {
+  // 1,001 spheres nested 1,000 deep, to the left and to the right.
+  for (const bool left : {true, false}) {
+    v1::Scene scene;
+    test_support::Random random(4);
+    const auto sphere = [&] {
+      auto* s = scene.add_nodes()->mutable_sphere();
+      for (int a = 0; a < 3; ++a) s->add_center(random.number(-2, 2));
+      s->set_radius(0.1);
+      s->set_range(0.3);
+      return test_support::place(scene.nodes_size() - 1);
+    };
+    std::string top = sphere();
+    for (int i = 0; i < 1000; ++i) {
+      const std::string leaf = sphere();
+      auto* blend = scene.add_nodes()->mutable_gradient();
+      blend->add_children(left ? top : leaf);
+      blend->add_children(left ? leaf : top);
+      top = test_support::place(scene.nodes_size() - 1);
+    }
+    const reference::Evaluator exact(test_support::read_or_die(scene));
+    const std::vector<float> xyz = random_points(9, 200, 2);
+    const std::vector<float> values = evaluate(*resident(scene), xyz, Quantity::kValue);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      ASSERT_NEAR(values[i], exact.value({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]}), 2e-5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isofield::gpu_test

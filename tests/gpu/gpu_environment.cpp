@@ -1,0 +1,58 @@
+#include "gpu/gpu_environment.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "support/scene_text.h"
+
+namespace isofield::gpu_test {
+namespace {
+
+std::unique_ptr<gpu::Device> the_device;
+std::unique_ptr<engine::KernelCache> the_kernels;
+
+class GpuEnvironment : public testing::Environment {
+ public:
+  void SetUp() override {
+    gpu::DeviceOptions options;
+    // Machines without the layer can run the tests all the same, but not by default.
+    options.validation = std::getenv("ISOFIELD_TESTS_WITHOUT_VALIDATION") == nullptr;
+    options.on_validation_message = [](const std::string& message) { std::cerr << "validation: " << message << "\n"; };
+    auto device = gpu::Device::create(options);
+    if (!device.ok()) {
+      std::cerr << "no device for the GPU tests: " << device.status() << "\n";
+      std::exit(1);
+    }
+    the_device = *std::move(device);
+    the_kernels = std::make_unique<engine::KernelCache>(*the_device);
+    std::cout << "device: " << the_device->description().name << ", subgroups of "
+              << the_device->description().subgroup_size << (options.validation ? "" : ", WITHOUT VALIDATION") << "\n";
+  }
+  void TearDown() override {
+    the_kernels.reset();
+    EXPECT_EQ(the_device->allocated_bytes(), 0u) << "buffers outlive their owners";
+    EXPECT_EQ(the_device->validation_messages(), 0u) << "the Vulkan validation layer has complained";
+    the_device.reset();
+  }
+};
+
+// Owned by GoogleTest.
+[[maybe_unused]] testing::Environment* const environment = testing::AddGlobalTestEnvironment(new GpuEnvironment);
+
+}  // namespace
+
+gpu::Device& device() { return *the_device; }
+engine::KernelCache& kernels() { return *the_kernels; }
+
+engine::SceneLease resident(const v1::Scene& scene) {
+  auto lease = engine::ResidentScene::create(device(), test_support::compile_or_die(test_support::read_or_die(scene)));
+  if (!lease.ok()) {
+    std::cerr << lease.status() << "\n";
+    std::exit(1);
+  }
+  return *std::move(lease);
+}
+
+}  // namespace isofield::gpu_test

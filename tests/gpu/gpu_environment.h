@@ -1,0 +1,17 @@
+// The device of the GPU tests: opened once, under the validation layer. One validation message fails the run.
+#pragma once
+
+#include "engine/kernel_cache.h"
+#include "engine/resident_scene.h"
+#include "gpu/device.h"
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield::gpu_test {
+
+gpu::Device& device();
+engine::KernelCache& kernels();
+
+// Read, compiled and uploaded; the process ends where that is refused.
+engine::SceneLease resident(const v1::Scene& scene);
+
+}  // namespace isofield::gpu_test
