@@ -31,35 +31,62 @@ absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshReq
                                           .cancelled = cancelled});
 }
 
+// Bricks at this cell size, or max_bricks + 1 when there are more.
+absl::StatusOr<std::uint64_t> count_bricks(const blobtree::Tape& tape, MeshRequest request, double cell_size,
+                                           std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
+  request.cell_size = cell_size;
+  const auto lattice = mesh_lattice(tape, request);
+  if (!lattice.ok()) return max_bricks + 1;
+  const auto list = cull_surface(tape, request, *lattice, max_bricks, cancelled);
+  if (absl::IsResourceExhausted(list.status())) return max_bricks + 1;
+  if (!list.ok()) return list.status();
+  return list->bricks.size();
+}
+
 // The smallest cell size, to a few per cent, whose bricks are admitted.
-absl::StatusOr<double> smallest_fitting_cell(const blobtree::Tape& tape, MeshRequest request, std::uint64_t max_bricks,
-                                             const std::function<bool()>& cancelled) {
-  const auto bricks_at = [&](double cell) -> absl::StatusOr<std::uint64_t> {
-    request.cell_size = cell;
-    const auto lattice = mesh_lattice(tape, request);
-    if (!lattice.ok()) return max_bricks + 1;
-    const auto list = cull_surface(tape, request, *lattice, max_bricks, cancelled);
-    if (absl::IsResourceExhausted(list.status())) return max_bricks + 1;
-    if (!list.ok()) return list.status();
-    return list->bricks.size();
-  };
+absl::StatusOr<double> smallest_fitting_cell(const blobtree::Tape& tape, const MeshRequest& request,
+                                             std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
   double too_small = request.cell_size, fits = too_small;
   for (;;) {
     fits *= 2;
-    const auto bricks = bricks_at(fits);
+    const auto bricks = count_bricks(tape, request, fits, max_bricks, cancelled);
     if (!bricks.ok()) return bricks.status();
     if (*bricks <= max_bricks) break;
     too_small = fits;
   }
   while (fits / too_small > 1.04) {
     const double middle = std::sqrt(fits * too_small);
-    const auto bricks = bricks_at(middle);
+    const auto bricks = count_bricks(tape, request, middle, max_bricks, cancelled);
     if (!bricks.ok()) return bricks.status();
     (*bricks <= max_bricks ? fits : too_small) = middle;
   }
   // Two digits more than the search is worth, rounded up.
   const double unit = std::pow(10, std::floor(std::log10(fits)) - 3);
   return std::ceil(fits / unit) * unit;
+}
+
+// The least radius of a primitive, in world lengths.
+double thinness(const blobtree::Leaf& leaf) {
+  const blobtree::ShapeSize& s = leaf.size;
+  double least = s[0];
+  switch (leaf.shape) {
+    case blobtree::Shape::kSphere:
+      break;
+    case blobtree::Shape::kSegment:
+      least = std::min(s[1], s[2]);
+      break;
+    case blobtree::Shape::kCylinder:
+      least = std::min(s[0], s[1]);
+      break;
+    case blobtree::Shape::kTorus:
+      least = s[1];
+      break;
+    case blobtree::Shape::kBox:
+    case blobtree::Shape::kEllipsoid:
+      least = std::min({s[0], s[1], s[2]});
+      break;
+  }
+  return least / leaf.stretch;
 }
 
 }  // namespace
@@ -89,6 +116,19 @@ absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshReque
                    along(bounds.min.y, bounds.max.y, lattice.origin.y),
                    along(bounds.min.z, bounds.max.z, lattice.origin.z)};
   return lattice;
+}
+
+absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const MeshRequest& request) {
+  constexpr std::uint64_t kBricks =
+      kAutomaticCells / (blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells);
+  if (tape.support.empty()) return 1.0;
+  double cell = longest_edge(request.bounds.value_or(tape.support)) / 128;
+  for (const blobtree::Leaf& leaf : tape.leaves) cell = std::min(cell, thinness(leaf));
+  for (;; cell *= 1.25) {
+    const auto bricks = count_bricks(tape, request, cell, kBricks, {});
+    if (!bricks.ok()) return bricks.status();
+    if (*bricks <= kBricks) return cell;
+  }
 }
 
 absl::StatusOr<BrickList> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request, const Lattice& lattice,

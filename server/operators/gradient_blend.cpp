@@ -20,7 +20,7 @@ Curve clamped_profile(const Silhouette& s, double a, double b) {
 Boundary boundary(double f, double t) {
   if (f >= 0.5) return {t / 2, 0, 0, 0.5, 0};
   // k = (8 t / (1 + t)^2) lambda^2
-  Curve lambda{f, 1, 0};             // in f
+  Curve lambda{f, 1, 0};               // in f
   double lambda_t = 0, lambda_ft = 0;  // in t
   if (f > t / 2) {
     const double x = 2 * (2 * f - t) / (1 - t);
@@ -49,8 +49,8 @@ Blend gradient_blend(double f1, double f2, double theta, const Silhouette& silho
   const Boundary at_max = boundary(f1, t);
   if (f2 <= 0 || f2 <= at_max.k) return {f1, 1, 0, 0, 0, 0, 0, 0, 0};
 
-  // F(C) = C - k - M(f1 - k, f2 - k) increases on [f1, k^-1(f2)]; with M = a for b <= 0 it is positive beyond, and so it
-  // is at 2 f1, since q < 2.
+  // F(C) = C - k - M(f1 - k, f2 - k) increases on [f1, k^-1(f2)]; with M = a for b <= 0 it is positive beyond, and so
+  // it is at 2 f1, since q < 2.
   const double c = root_of(f1, 2 * f1, [&](double c) {
     const Boundary k = boundary(c, t);
     const double a = f1 - k.k, b = f2 - k.k;

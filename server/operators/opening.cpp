@@ -14,8 +14,8 @@ constexpr double kPi = std::numbers::pi;
 Curve kappa(double x) {
   if (x <= 0) return {0, 0, 0};
   if (x >= 1) return {1, 0, 0};
-  // kappa = 1 - exp(1 - 1/s) with s = 1 - e, e = exp(1 - 1/x). Written with 1 - 1/s = -e/s, small values are right to the
-  // last bits, which a small exponent w makes visible ones.
+  // kappa = 1 - exp(1 - 1/s) with s = 1 - e, e = exp(1 - 1/x). Written with 1 - 1/s = -e/s, small values are right to
+  // the last bits, which a small exponent w makes visible ones.
   const double e = std::exp(1 - 1 / x);
   const double s = -std::expm1(1 - 1 / x);
   if (e == 0) return {0, 0, 0};
@@ -36,10 +36,18 @@ Curve Opening::theta(double alpha) const {
   return {power * (far - theta1) + theta1, w * power / k.v * k.d1 / span * (far - theta1), 0};
 }
 
-double Opening::theta_min() const { return std::min({theta0, theta1, theta2}); }
+double Opening::theta_min() const {
+  return std::min({theta0, theta1, theta2});
+}
 
-Opening camel() { return {0, kPi / 2, kPi, kPi / 4, 0, kPi / 4, 1, 1}; }
-Opening organic() { return {0, kPi / 3, 3 * kPi / 4, kPi / 6, 0, kPi / 4, 3, 1}; }
-Opening contact() { return {0, kPi / 2, kPi, 0, kPi / 10, kPi / 4, 1, 0.7}; }
+Opening camel() {
+  return {0, kPi / 2, kPi, kPi / 4, 0, kPi / 4, 1, 1};
+}
+Opening organic() {
+  return {0, kPi / 3, 3 * kPi / 4, kPi / 6, 0, kPi / 4, 3, 1};
+}
+Opening contact() {
+  return {0, kPi / 2, kPi, 0, kPi / 10, kPi / 4, 1, 0.7};
+}
 
 }  // namespace isofield::operators

@@ -61,8 +61,7 @@ Curve Silhouette::profile(double u) const {
   const double x1 = y.v / denominator;
   const double x2 = (2 * y.v * y.d1 + u * y.v * y.d2 * x1) / (denominator * denominator);
   const double v2 = y.v * y.v;
-  return {1 / y.v, -y.d1 * x1 / v2,
-          -(y.d2 * x1 * x1 + y.d1 * x2) / v2 + 2 * y.d1 * y.d1 * x1 * x1 / (v2 * y.v)};
+  return {1 / y.v, -y.d1 * x1 / v2, -(y.d2 * x1 * x1 + y.d1 * x2) / v2 + 2 * y.d1 * y.d1 * x1 * x1 / (v2 * y.v)};
 }
 
 }  // namespace isofield::operators

@@ -24,7 +24,9 @@ struct Dual {
 };
 
 // f(a) of a function with value f and derivative slope at a.
-inline Dual chain(const Dual& a, double f, double slope) { return {f, a.d * slope}; }
+inline Dual chain(const Dual& a, double f, double slope) {
+  return {f, a.d * slope};
+}
 
 // The derivative at 0, which does not exist, is 0.
 inline Dual sqrt(const Dual& a) {
@@ -32,7 +34,9 @@ inline Dual sqrt(const Dual& a) {
   const double root = std::sqrt(a.v);
   return chain(a, root, 0.5 / root);
 }
-inline Dual reciprocal(const Dual& a) { return chain(a, 1 / a.v, -1 / (a.v * a.v)); }
+inline Dual reciprocal(const Dual& a) {
+  return chain(a, 1 / a.v, -1 / (a.v * a.v));
+}
 inline Dual atan2(const Dual& y, const Dual& x) {
   const double square = x.v * x.v + y.v * y.v;
   return {std::atan2(y.v, x.v), y.d * (x.v / square) - x.d * (y.v / square)};

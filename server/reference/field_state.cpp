@@ -17,7 +17,9 @@ constexpr double kNullBelow = 1e-3;
 // ... and where it does so wholly: its weight would be 3e-74.
 constexpr double kNull = 1e-40;
 
-DualVec3 scaled(const DualVec3& v, const Dual& s) { return {v.x * s, v.y * s, v.z * s}; }
+DualVec3 scaled(const DualVec3& v, const Dual& s) {
+  return {v.x * s, v.y * s, v.z * s};
+}
 
 Dual smoothstep(const Dual& edge, const Dual& x) {
   const Dual t = x * reciprocal(edge);
@@ -26,7 +28,9 @@ Dual smoothstep(const Dual& edge, const Dual& x) {
   return t * t * (Dual(3) - Dual(2) * t);
 }
 
-FieldState minimum(const FieldState& a, const FieldState& b) { return a.field.v <= b.field.v ? a : b; }
+FieldState minimum(const FieldState& a, const FieldState& b) {
+  return a.field.v <= b.field.v ? a : b;
+}
 
 FieldState difference(const FieldState& a, const FieldState& b) {
   const FieldState outside_b{Dual(1) - b.field, scaled(b.steering, -1)};

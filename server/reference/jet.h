@@ -41,9 +41,15 @@ inline Jet sqrt(const Jet& a) {
   const double root = std::sqrt(a.v);
   return Jet::chain(a, a, root, 0.5 / root, 0, -0.25 / (a.v * root), 0, 0);
 }
-inline Jet abs(const Jet& a) { return a.v < 0 ? Jet(0.0) - a : a; }
+inline Jet abs(const Jet& a) {
+  return a.v < 0 ? Jet(0.0) - a : a;
+}
 // Where both are equal the first is taken.
-inline Jet max(const Jet& a, const Jet& b) { return a.v >= b.v ? a : b; }
-inline Jet min(const Jet& a, const Jet& b) { return a.v <= b.v ? a : b; }
+inline Jet max(const Jet& a, const Jet& b) {
+  return a.v >= b.v ? a : b;
+}
+inline Jet min(const Jet& a, const Jet& b) {
+  return a.v <= b.v ? a : b;
+}
 
 }  // namespace isofield::reference

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
 #include "rpc/status.h"
 
@@ -39,7 +40,8 @@ absl::StatusOr<std::optional<blobtree::Box>> read_bounds(const v1::MeshRequest& 
   return blobtree::Box{{a[0], a[1], a[2]}, {b[0], b[1], b[2]}};
 }
 
-absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const blobtree::Box& box) {
+absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const engine::MeshRequest& so_far,
+                                      const blobtree::Tape& tape) {
   switch (request.cells_case()) {
     case v1::MeshRequest::kCellSize:
       if (!(request.cell_size() > 0) || !(request.cell_size() <= blobtree::kMaxCoordinate)) {
@@ -52,11 +54,12 @@ absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const blob
         return absl::InvalidArgumentError(
             absl::StrCat("resolution = ", request.resolution(), ": expected a count within [1, ", kMaxResolution, "]"));
       }
+      const blobtree::Box box = so_far.bounds.value_or(tape.support);
       if (box.empty()) return 1.0;
       return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}) / request.resolution();
     }
     default:
-      return absl::InvalidArgumentError("cells: expected cell_size or resolution");
+      return engine::automatic_cell_size(tape, so_far);
   }
 }
 
@@ -64,15 +67,16 @@ absl::StatusOr<engine::MeshRequest> read_request(const v1::MeshRequest& request,
                                                  const Limits& limits) {
   engine::MeshRequest r;
   ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request));
-  ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_cell_size(request, r.bounds.value_or(tape.support)));
   if (request.iso() != 0) {
     if (!(request.iso() > 0 && request.iso() < 1)) {
-      return absl::InvalidArgumentError(absl::StrCat("iso = ", request.iso(), ": expected a value within ]0, 1[, or 0 for 0.5"));
+      return absl::InvalidArgumentError(
+          absl::StrCat("iso = ", request.iso(), ": expected a value within ]0, 1[, or 0 for 0.5"));
     }
     r.iso = request.iso();
   }
   r.with_normals = !request.omit_normals();
   r.max_cells = limits.max_mesh_cells;
+  ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_cell_size(request, r, tape));
   return r;
 }
 
