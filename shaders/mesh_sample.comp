@@ -13,11 +13,11 @@ layout(std430, binding = 6) writeonly buffer Samples { float samples[]; };
 void main() {
   uvec2 job = uvec2(jobs[2u * (first + gl_WorkGroupID.x)], jobs[2u * (first + gl_WorkGroupID.x) + 1u]);
   Brick b = brick(job.x);
-  for (uint n = gl_LocalInvocationID.x; n < CORNERS_PER_BRICK; n += gl_WorkGroupSize.x) {
-    uvec3 offset = uvec3(n % BRICK_CORNERS, n / BRICK_CORNERS % BRICK_CORNERS, n / (BRICK_CORNERS * BRICK_CORNERS));
-    uvec3 i = b.at * BRICK_CELLS + offset;
-    float f = evaluate(corner_position(i), b.tape_begin, b.tape_count).f;
-    bool is_boundary = any(equal(i, uvec3(0u))) || any(greaterThanEqual(i, cells.xyz));
-    samples[job.y * CORNERS_PER_BRICK + n] = is_capped != 0u && is_boundary ? 0.0 : f;
-  }
+  // Surplus invocations repeat the last corner: no branch around the tape (TAPE_LENGTH).
+  uint n = min(gl_LocalInvocationID.x, CORNERS_PER_BRICK - 1u);
+  uvec3 offset = uvec3(n % BRICK_CORNERS, n / BRICK_CORNERS % BRICK_CORNERS, n / (BRICK_CORNERS * BRICK_CORNERS));
+  uvec3 i = b.at * BRICK_CELLS + offset;
+  float f = evaluate(corner_position(i), b.tape_begin, b.tape_count).f;
+  bool is_boundary = any(equal(i, uvec3(0u))) || any(greaterThanEqual(i, cells.xyz));
+  samples[job.y * CORNERS_PER_BRICK + n] = is_capped != 0u && is_boundary ? 0.0 : f;
 }

@@ -27,12 +27,12 @@ KernelKind KernelKind::of(const blobtree::Tape& tape) {
 }
 
 KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
-  return {tape.operand_set & ~bit(Operand::kPop), bit(Operator::kPush), 0};
+  return {tape.operand_set & ~bit(Operand::kPop), bit(Operator::kPush), 0, 1};
 }
 
 absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
   const Key key{reinterpret_cast<std::uintptr_t>(shader.data()), kind.operand_set, kind.operator_set,
-                kind.stack_depth};
+                kind.stack_depth, kind.tape_length};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
   bool compiles = false;
@@ -46,7 +46,8 @@ absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shad
     kernel = it->second;
   }
   if (compiles) {
-    const std::array<std::uint32_t, 3> constants{kind.operand_set, kind.operator_set, kind.stack_depth};
+    const std::array<std::uint32_t, 4> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
+                                                 kind.tape_length};
     auto pipeline = gpu::Pipeline::create(device_, shader, constants);
     if (!pipeline.ok()) {
       // A later request may find the memory that was missing.

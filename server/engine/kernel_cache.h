@@ -20,6 +20,7 @@ namespace isofield::engine {
 // What a tape-running kernel is specialised to (shaders/lib/opcodes.glsl).
 struct KernelKind {
   std::uint32_t operand_set = 0, operator_set = 0, stack_depth = 0;
+  std::uint32_t tape_length = 0;  // 0: any
 
   // For every tape pruned from this one.
   static KernelKind of(const blobtree::Tape& tape);
@@ -36,7 +37,7 @@ class KernelCache {
 
  private:
   using Compiled = absl::StatusOr<std::shared_ptr<const gpu::Pipeline>>;
-  using Key = std::array<std::uintptr_t, 4>;
+  using Key = std::array<std::uintptr_t, 5>;
 
   gpu::Device& device_;
   std::mutex mutex_;

@@ -27,27 +27,30 @@ Field evaluate(vec3 point, uint begin, uint count) {
   Field acc = zero_field();
   Field s0u = acc, s1u = acc, s2u = acc, s3u = acc, s4u = acc, s5u = acc, s6u = acc, s7u = acc, s8u = acc, s9u = acc,
         s10u = acc, s11u = acc, s12u = acc, s13u = acc, s14u = acc, s15u = acc;
-  for (uint n = 0u; n < count; ++n) {
+  uint len = TAPE_LENGTH > 0u ? TAPE_LENGTH : count;
+  for (uint n = 0u; n < len; ++n) {
     uvec4 i = tape[begin + n];
     uint operand = i.x & 0xffu, op = i.x >> 8u;
     Field v = leaf_field(p, operand, i.y);
-    if (STACK_DEPTH > 0u && has_operand(OPERAND_POP) && operand == OPERAND_POP) {
+    if (STACK_DEPTH > 0u && is_operand(operand, OPERAND_POP)) {
       v = acc;
       acc = s0u;
       FOR_EACH_REGISTER_DOWN;
     }
     Field r = v;
-    if (has_operator(OPERATOR_PUSH) && STACK_DEPTH > 0u && op == OPERATOR_PUSH) {
-      FOR_EACH_REGISTER_UP;
-      s0u = acc;
+    if (n > 0u) {
+      if (STACK_DEPTH > 0u && op == OPERATOR_PUSH) {
+        FOR_EACH_REGISTER_UP;
+        s0u = acc;
+      }
+      if (is_operator(op, OPERATOR_SUM)) r = sum(acc, v);
+      if (is_operator(op, OPERATOR_MAX)) r = select_field(acc, v, v.f > acc.f);
+      if (is_operator(op, OPERATOR_MIN)) r = select_field(acc, v, v.f < acc.f);
+      if (is_operator(op, OPERATOR_SUBTRACT)) r = subtract(acc, v);
+      if (is_operator(op, OPERATOR_SUBTRACT_FROM)) r = subtract(v, acc);
+      if (is_operator(op, OPERATOR_RICCI)) r = ricci(acc, v, operations[i.z].xy);
+      if (is_operator(op, OPERATOR_GRADIENT)) r = blend_by_gradient(acc, v, operations[i.z]);
     }
-    if (has_operator(OPERATOR_SUM) && op == OPERATOR_SUM) r = sum(acc, v);
-    if (has_operator(OPERATOR_MAX) && op == OPERATOR_MAX) r = select_field(acc, v, v.f > acc.f);
-    if (has_operator(OPERATOR_MIN) && op == OPERATOR_MIN) r = select_field(acc, v, v.f < acc.f);
-    if (has_operator(OPERATOR_SUBTRACT) && op == OPERATOR_SUBTRACT) r = subtract(acc, v);
-    if (has_operator(OPERATOR_SUBTRACT_FROM) && op == OPERATOR_SUBTRACT_FROM) r = subtract(v, acc);
-    if (has_operator(OPERATOR_RICCI) && op == OPERATOR_RICCI) r = ricci(acc, v, operations[i.z].xy);
-    if (has_operator(OPERATOR_GRADIENT) && op == OPERATOR_GRADIENT) r = blend_by_gradient(acc, v, operations[i.z]);
     acc = r;
   }
   return acc;

@@ -153,33 +153,33 @@ Field placed_field(Placement at, Distance s) {
 
 Field leaf_field(vec3 p, uint operand, uint record) {
   Field v = zero_field();
-  if (has_operand(OPERAND_SPHERE) && operand == OPERAND_SPHERE) {
+  if (is_operand(operand, OPERAND_SPHERE)) {
     vec4 centre = leaves[record];
     v = soften(sphere_distance(p - centre.xyz, leaves[record + 1u].x), centre.w);
   }
-  if (has_operand(OPERAND_SEGMENT) && operand == OPERAND_SEGMENT) {
+  if (is_operand(operand, OPERAND_SEGMENT)) {
     vec4 a = leaves[record];
     vec4 axis = leaves[record + 1u];
     vec4 cone = leaves[record + 2u];
     v = soften(segment_distance(p - a.xyz, axis.xyz, axis.w, cone.x, cone.y, cone.z), a.w);
   }
-  if (has_operand(OPERAND_BOX) && operand == OPERAND_BOX) {
+  if (is_operand(operand, OPERAND_BOX)) {
     Placement at = place(p, record);
     v = placed_field(at, box_distance(at.q, at.size, leaves[record + 4u].x));
   }
-  if (has_operand(OPERAND_CYLINDER) && operand == OPERAND_CYLINDER) {
+  if (is_operand(operand, OPERAND_CYLINDER)) {
     Placement at = place(p, record);
     v = placed_field(at, cylinder_distance(at.q, at.size.x, at.size.y));
   }
-  if (has_operand(OPERAND_TORUS) && operand == OPERAND_TORUS) {
+  if (is_operand(operand, OPERAND_TORUS)) {
     Placement at = place(p, record);
     v = placed_field(at, torus_distance(at.q, at.size.x, at.size.y));
   }
-  if (has_operand(OPERAND_ELLIPSOID) && operand == OPERAND_ELLIPSOID) {
+  if (is_operand(operand, OPERAND_ELLIPSOID)) {
     Placement at = place(p, record);
     v = placed_field(at, sphere_distance(at.q, at.size.x));
   }
-  if (has_operand(OPERAND_AFFINE_SEGMENT) && operand == OPERAND_AFFINE_SEGMENT) {
+  if (is_operand(operand, OPERAND_AFFINE_SEGMENT)) {
     Placement at = place(p, record);
     float slope = at.size.z;
     float tan_tilt = -slope * inversesqrt(max(1.0 - slope * slope, 1e-12));

@@ -26,9 +26,21 @@ const uint OPERATOR_GRADIENT = 7u;
 layout(constant_id = 0) const uint OPERAND_SET = 0xffffffffu;
 layout(constant_id = 1) const uint OPERATOR_SET = 0xffffffffu;
 layout(constant_id = 2) const uint STACK_DEPTH = 16u;
+// Instructions of every tape, or 0 where they differ. A known length leaves no loop, and lavapipe reads what all
+// invocations share once, rather than once for each, outside of loops and branches alone.
+layout(constant_id = 3) const uint TAPE_LENGTH = 0u;
 
 bool has_operand(uint operand) { return (OPERAND_SET >> operand & 1u) != 0u; }
 bool has_operator(uint op) { return (OPERATOR_SET >> op & 1u) != 0u; }
+
+// Comparisons that the sets decide are dropped with their branches.
+bool is_operand(uint operand, uint candidate) {
+  return has_operand(candidate) && (OPERAND_SET == 1u << candidate || operand == candidate);
+}
+// Of instructions after the first, which pushes.
+bool is_operator(uint op, uint candidate) {
+  return has_operator(candidate) && (OPERATOR_SET == (1u << OPERATOR_PUSH | 1u << candidate) && STACK_DEPTH == 0u || op == candidate);
+}
 
 // Gradient blends steer by their operands' directions; a tape without them need not carry any.
 bool is_steered() { return has_operator(OPERATOR_GRADIENT); }

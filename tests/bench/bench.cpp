@@ -1,0 +1,151 @@
+// What the engine does in a second, in process: tests/bench/run prints it as a table with ratios.
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "engine/engine.h"
+#include "isofield/import.h"
+#include "support/random_scene.h"
+#include "support/scene_text.h"
+#include "support/shared_files.h"
+
+namespace isofield {
+namespace {
+
+using engine::Quantity;
+
+engine::Engine& the_engine() {
+  static const auto engine = [] {
+    auto created = engine::Engine::create({}, {});
+    if (!created.ok()) {
+      std::cerr << created.status() << "\n";
+      std::exit(1);
+    }
+    return *std::move(created);
+  }();
+  return *engine;
+}
+
+engine::SceneLease resident(const v1::Scene& scene) {
+  auto lease = the_engine().make_resident(scene);
+  if (!lease.ok()) {
+    std::cerr << lease.status() << "\n";
+    std::exit(1);
+  }
+  return *std::move(lease);
+}
+
+enum class Join { kSum, kMax, kCamel };
+
+void join_all(v1::Scene& scene, Join join) {
+  const int count = scene.nodes_size();
+  v1::Node& root = *scene.add_nodes();
+  for (int i = 0; i < count; ++i) {
+    const std::string child = test_support::place(i);
+    switch (join) {
+      case Join::kSum:
+        root.mutable_sum()->add_children(child);
+        break;
+      case Join::kMax:
+        root.mutable_max()->add_children(child);
+        break;
+      case Join::kCamel:
+        root.mutable_gradient()->add_children(child);
+        break;
+    }
+  }
+}
+
+// Raw soft spheres of radius R in the cube [-1, 1]^3, each overlapping a few others whatever their number.
+v1::Scene soft_spheres(int count, Join join, double reach = 1) {
+  test_support::Random random(42);
+  v1::Scene scene;
+  const double r = 0.9 * std::cbrt(8.0 / count) * reach;
+  for (int i = 0; i < count; ++i) {
+    auto* s = scene.add_nodes()->mutable_sphere();
+    for (int a = 0; a < 3; ++a) s->add_center(random.number(-reach, reach));
+    s->set_radius(blobtree::kR0 * r);
+    s->set_range((1 - blobtree::kR0) * r);
+  }
+  join_all(scene, join);
+  return scene;
+}
+
+v1::Scene neuron(ImportOperator op) {
+  const auto path = test_support::shared_file("data/hemibrain_1734350788.swc");
+  ImportOptions options;
+  options.op = op;
+  auto imported = import_file(path.string(), options);
+  if (!imported.ok()) {
+    std::cerr << imported.status() << "\n";
+    std::exit(1);
+  }
+  return imported->scene;
+}
+
+void mesh(benchmark::State& state, const v1::Scene& scene, double cell) {
+  const engine::SceneLease lease = resident(scene);
+  std::size_t vertices = 0, cells = 0;
+  for (auto _ : state) {
+    const auto m = the_engine().mesher().mesh(*lease, {.cell_size = cell}, {});
+    if (!m.ok()) return state.SkipWithError(std::string(m.status().message()).c_str());
+    vertices = m->positions.size() / 3;
+    cells = m->cells;
+  }
+  state.counters["vertices"] = static_cast<double>(vertices);
+  state.counters["cells"] = static_cast<double>(cells);
+  state.counters["primitives"] = static_cast<double>(lease->tape().leaves.size());
+}
+
+void points(benchmark::State& state, const v1::Scene& scene, Quantity quantity) {
+  const engine::SceneLease lease = resident(scene);
+  test_support::Random random(1);
+  std::vector<float> xyz(3 << 20);
+  for (float& x : xyz) x = static_cast<float>(random.number(-1, 1));
+  std::vector<float> out(xyz.size() / 3 * components(quantity));
+  for (auto _ : state) {
+    const absl::Status s = the_engine().fields().evaluate(*lease, xyz, quantity, out);
+    if (!s.ok()) return state.SkipWithError(std::string(s.message()).c_str());
+  }
+  state.counters["points/s"] =
+      benchmark::Counter(static_cast<double>(xyz.size() / 3 * state.iterations()), benchmark::Counter::kIsRate);
+}
+
+template <class Function>
+void add(const std::string& name, Function f) {
+  benchmark::RegisterBenchmark(name.c_str(), f)->Unit(benchmark::kMillisecond)->UseRealTime()->MinWarmUpTime(0.01);
+}
+
+void register_all() {
+  if (test_support::has_shared_file("data/hemibrain_1734350788.swc")) {
+    for (const int cell : {32, 16, 8}) {
+      add("mesh/neuron camel/cell " + std::to_string(cell),
+          [cell](benchmark::State& s) { mesh(s, neuron(ImportOperator::kCamel), cell); });
+    }
+    add("mesh/neuron max/cell 16", [](benchmark::State& s) { mesh(s, neuron(ImportOperator::kMax), 16); });
+  }
+  for (const int count : {8, 64, 1000}) {
+    const std::string spheres = std::to_string(count) + " soft spheres";
+    for (const auto& [join, name] : {std::pair{Join::kSum, " sum"}, std::pair{Join::kCamel, " camel"}}) {
+      add("mesh/" + spheres + name + "/128 cells",
+          [count, join = join](benchmark::State& s) { mesh(s, soft_spheres(count, join), 3.0 / 128); });
+      add("points/" + spheres + name + "/value and gradient", [count, join = join](benchmark::State& s) {
+        points(s, soft_spheres(count, join), Quantity::kValueAndGradient);
+      });
+    }
+    add("points/" + spheres + " sum/value",
+        [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), Quantity::kValue); });
+  }
+}
+
+}  // namespace
+}  // namespace isofield
+
+int main(int argc, char** argv) {
+  isofield::register_all();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
