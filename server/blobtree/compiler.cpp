@@ -3,6 +3,7 @@
 #include <absl/strings/str_cat.h>
 
 #include <algorithm>
+#include <map>
 
 #include "blobtree/leaf_placer.h"
 #include "operators/profile_table.h"
@@ -112,11 +113,9 @@ class Compiler {
   }
 
   double bound_of(const operators::Silhouette& silhouette) {
-    for (const auto& [known, bound] : bounds_) {
-      if (known == silhouette) return bound;
-    }
-    bounds_.emplace_back(silhouette, operators::silhouette_bound(silhouette));
-    return bounds_.back().second;
+    const auto [known, is_new] = bounds_.try_emplace(silhouette);
+    if (is_new) known->second = operators::silhouette_bound(silhouette);
+    return known->second;
   }
 
   absl::Status emit_all() {
@@ -215,7 +214,7 @@ class Compiler {
   std::vector<char> leaf_like_;
   std::vector<Frame> stack_;
   std::vector<Affine> maps_;
-  std::vector<std::pair<operators::Silhouette, double>> bounds_;
+  std::map<operators::Silhouette, double> bounds_;
 };
 
 }  // namespace

@@ -8,35 +8,30 @@
 namespace isofield::blobtree {
 namespace {
 
-// Half the extents of the support in the shape's own frame, and its centre.
-struct LocalSupport {
-  dvec3 centre, half;
-};
-
-LocalSupport local_support(Shape shape, const ShapeSize& s, double h) {
+// Half the extents of the support of a shape centred in its own frame: of all but the segment.
+dvec3 local_half(Shape shape, const ShapeSize& s, double h) {
   switch (shape) {
     case Shape::kSphere:
-      return {{}, {s[0] + h, s[0] + h, s[0] + h}};
-    case Shape::kSegment: {
-      const double r = std::max(s[1], s[2]) + h;
-      const double low = std::min(-s[1], s[0] - s[2]) - h, high = std::max(s[1], s[0] + s[2]) + h;
-      return {{0, 0, (low + high) / 2}, {r, r, (high - low) / 2}};
-    }
+      return {s[0] + h, s[0] + h, s[0] + h};
+    case Shape::kSegment:
+      break;
     case Shape::kBox:
-      return {{}, {s[0] + h, s[1] + h, s[2] + h}};
+      return {s[0] + h, s[1] + h, s[2] + h};
     case Shape::kCylinder:
-      return {{}, {s[1] + h, s[1] + h, s[0] + h}};
+      return {s[1] + h, s[1] + h, s[0] + h};
     case Shape::kTorus:
-      return {{}, {s[0] + s[1] + h, s[0] + s[1] + h, s[1] + h}};
+      return {s[0] + s[1] + h, s[0] + s[1] + h, s[1] + h};
     case Shape::kEllipsoid: {
       const double grow = 1 + h / std::min({s[0], s[1], s[2]});
-      return {{}, {s[0] * grow, s[1] * grow, s[2] * grow}};
+      return {s[0] * grow, s[1] * grow, s[2] * grow};
     }
   }
   return {};
 }
 
-bool is_round(Shape shape) { return shape == Shape::kSphere || shape == Shape::kEllipsoid; }
+bool is_round(Shape shape) {
+  return shape == Shape::kSphere || shape == Shape::kEllipsoid;
+}
 
 // Half extents of the image of the local support. Round supports fill less of their box than its corners span.
 dvec3 world_half(const Affine& to_world, const dvec3& half, bool round) {
@@ -141,10 +136,8 @@ absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
   if (leaf.shape == Shape::kSegment) {
     leaf.support = segment_support(leaf, place);
   } else {
-    const LocalSupport local = local_support(leaf.shape, leaf.size, leaf.range);
-    const dvec3 centre = place.point(local.centre);
-    const dvec3 half = world_half(place, local.half, is_round(leaf.shape));
-    leaf.support = {centre - half, centre + half};
+    const dvec3 half = world_half(place, local_half(leaf.shape, leaf.size, leaf.range), is_round(leaf.shape));
+    leaf.support = {place.offset - half, place.offset + half};
   }
   pad(leaf.support);
   return leaf;

@@ -98,12 +98,10 @@ class Tables {
 
  private:
   template <class Key, class Make>
-  std::uint32_t find(std::vector<std::pair<Key, std::uint32_t>>& known, const Key& key, Make make) {
-    for (const auto& [k, offset] : known) {
-      if (k == key) return offset;
-    }
-    known.emplace_back(key, append(make()));
-    return known.back().second;
+  std::uint32_t find(std::map<Key, std::uint32_t>& known, const Key& key, Make make) {
+    const auto [it, is_new] = known.try_emplace(key);
+    if (is_new) it->second = append(make());
+    return it->second;
   }
   std::uint32_t append(const operators::ProfileTable& table) {
     const auto offset = static_cast<std::uint32_t>(out_.size());
@@ -112,8 +110,8 @@ class Tables {
   }
 
   std::vector<Float4>& out_;
-  std::vector<std::pair<operators::Silhouette, std::uint32_t>> silhouettes_;
-  std::vector<std::pair<operators::Opening, std::uint32_t>> openings_;
+  std::map<operators::Silhouette, std::uint32_t> silhouettes_;
+  std::map<operators::Opening, std::uint32_t> openings_;
 };
 
 }  // namespace

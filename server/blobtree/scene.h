@@ -43,6 +43,7 @@ struct Scene {
 struct SceneLimits {
   std::uint64_t max_nodes = 1'000'000;
   std::uint64_t max_primitives = 1'000'000;  // after instancing
+  std::uint64_t max_profiles = 2'000;        // different openings and silhouettes: a table of 4 KiB each
 };
 
 // Lengths and coordinates beyond these would leave the range in which float32 squares are finite.

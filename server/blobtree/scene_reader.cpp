@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "blobtree/node_reader.h"
 
@@ -127,6 +128,23 @@ absl::Status check_instances(const Scene& scene, const SceneLimits& limits) {
   return absl::OkStatus();
 }
 
+// Each opening and silhouette is a table on the device.
+absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
+  std::set<operators::Opening> openings;
+  std::set<operators::Silhouette> silhouettes;
+  for (const Node& node : scene.nodes) {
+    if (node.kind != NodeKind::kGradient) continue;
+    openings.insert(node.opening);
+    silhouettes.insert(node.silhouette);
+    if (openings.size() + silhouettes.size() > limits.max_profiles) {
+      return absl::InvalidArgumentError(absl::StrCat(node.path, ".opening: more than ", limits.max_profiles,
+                                                     " different openings and silhouettes in one scene: expected at "
+                                                     "most so many; nodes may share them"));
+    }
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits) {
@@ -164,6 +182,7 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
   scene.root = *root;
   if (absl::Status s = sort_nodes(scene); !s.ok()) return s;
   if (absl::Status s = check_instances(scene, limits); !s.ok()) return s;
+  if (absl::Status s = check_profiles(scene, limits); !s.ok()) return s;
   return scene;
 }
 

@@ -2,7 +2,7 @@
 // Source: [G] Gourmel et al. 2013, eqs. 15 and 16, Table I.
 #pragma once
 
-#include <string>
+#include <compare>
 
 #include "operators/derivatives.h"
 
@@ -18,7 +18,7 @@ struct Opening {
   Curve theta(double alpha) const;
   // The angle where one of the gradients vanishes ([G] section 7).
   double theta_min() const;
-  bool operator==(const Opening&) const = default;
+  auto operator<=>(const Opening&) const = default;
 };
 
 Opening camel();

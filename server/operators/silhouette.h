@@ -2,6 +2,8 @@
 // smooth maximum, homogeneous of degree 1, whose unit level curve is the silhouette s of [G] eqs. 21 to 24.
 #pragma once
 
+#include <compare>
+
 #include "operators/derivatives.h"
 
 namespace isofield::operators {
@@ -13,7 +15,7 @@ struct Silhouette {
 
   // q, q', q'' at u within [0, 1]. q(0) = 1 and q'(0) = 0 exactly.
   Curve profile(double u) const;
-  bool operator==(const Silhouette&) const = default;
+  auto operator<=>(const Silhouette&) const = default;
 };
 
 // E(x) for x within [0, 1[, with derivatives: the curve (x, 1 - E(x)) is the smooth silhouette ([G] eq. 30), and

@@ -32,7 +32,9 @@ vec3 silhouette_profile(uint table, float u) {
 
 // tan(theta) of an opening function at alpha within [0, pi].
 vec3 opening_tangent(uint table, float alpha) {
-  return profile(table, OPENING_CELLS, float(OPENING_CELLS) / 3.14159265358979, alpha);
+  vec3 t = profile(table, OPENING_CELLS, float(OPENING_CELLS) / 3.14159265358979, alpha);
+  t.x = max(t.x, 0.0);  // the cubics of the steepest openings undershoot by 4e-4
+  return t;
 }
 
 #endif

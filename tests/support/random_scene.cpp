@@ -1,0 +1,279 @@
+#include "support/random_scene.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace isofield::test_support {
+namespace {
+
+constexpr int kMostTransformsAbove = 2;  // of one primitive: keeps coordinates small
+constexpr int kMostInstances = 400;      // of primitives below one node
+
+void set_point(google::protobuf::RepeatedField<double>* out, const blobtree::dvec3& p) {
+  for (const double x : {p.x, p.y, p.z}) out->Add(x);
+}
+
+class SceneMaker {
+ public:
+  SceneMaker(std::uint64_t seed, const RandomSceneOptions& options) : random_(seed), options_(options) {}
+
+  v1::Scene make() {
+    const int primitives = std::max(1, static_cast<int>(options_.nodes * random_.number(0.5, 0.7)));
+    for (int i = 0; i < primitives; ++i) {
+      add_primitive();
+      // Blends of blends need depth: use up some of what is there now and then.
+      while (unused_.size() > 1 && random_.chance(0.35)) add_above();
+    }
+    while (unused_.size() > 1 && static_cast<int>(parts_.size()) < options_.nodes - 1) add_above();
+    if (unused_.size() > 1) add_operator(std::exchange(unused_, {}));
+    return shuffled();
+  }
+
+ private:
+  struct Part {
+    v1::Node node;
+    std::vector<int> children;
+    int instances = 1;   // primitives below, shared ones counted at every use
+    int transforms = 0;  // the most on a way down
+  };
+
+  int add(Part part) {
+    for (const int child : part.children) {
+      part.transforms = std::max(part.transforms, parts_[child].transforms + (part.node.has_transform() ? 1 : 0));
+    }
+    if (!part.children.empty()) {
+      part.instances = 0;
+      for (const int child : part.children) part.instances += parts_[child].instances;
+    }
+    parts_.push_back(std::move(part));
+    unused_.push_back(static_cast<int>(parts_.size()) - 1);
+    return unused_.back();
+  }
+
+  double length() { return random_.number(0.1, 0.8); }
+
+  void add_primitive() {
+    Part part;
+    v1::Node& node = part.node;
+    const blobtree::dvec3 centre = random_.point(-1.2, 1.2);
+    switch (random_.integer(0, 5)) {
+      case 0:
+        set_point(node.mutable_sphere()->mutable_center(), centre);
+        node.mutable_sphere()->set_radius(length());
+        node.mutable_sphere()->set_range(length());
+        break;
+      case 1: {
+        v1::Segment& s = *node.mutable_segment();
+        set_point(s.mutable_a(), centre);
+        // A point now and then: both ends in one place.
+        set_point(s.mutable_b(), random_.chance(0.1) ? centre : centre + random_.point(-1, 1));
+        s.set_radius_a(length());
+        s.set_radius_b(random_.chance(0.4) ? s.radius_a() : length());
+        s.set_range(length());
+        break;
+      }
+      case 2: {
+        v1::Box& b = *node.mutable_box();
+        set_point(b.mutable_center(), centre);
+        set_point(b.mutable_half_size(), random_.point(0.1, 0.8));
+        const double least = *std::min_element(b.half_size().begin(), b.half_size().end());
+        b.set_rounding(random_.chance(0.5) ? 0 : random_.number(0, least));
+        b.set_range(length());
+        break;
+      }
+      case 3: {
+        v1::Cylinder& c = *node.mutable_cylinder();
+        set_point(c.mutable_a(), centre);
+        set_point(c.mutable_b(), centre + random_.point(0.1, 0.9));
+        c.set_radius(length());
+        c.set_range(length());
+        break;
+      }
+      case 4: {
+        v1::Torus& t = *node.mutable_torus();
+        set_point(t.mutable_center(), centre);
+        if (random_.chance(0.8)) set_point(t.mutable_axis(), random_.point(0.1, 1));
+        t.set_major_radius(random_.number(0.3, 0.8));
+        t.set_minor_radius(random_.number(0.1, 0.4));
+        t.set_range(length());
+        break;
+      }
+      default: {
+        v1::Ellipsoid& e = *node.mutable_ellipsoid();
+        set_point(e.mutable_center(), centre);
+        set_point(e.mutable_semi_axes(), random_.point(0.2, 0.8));
+        e.set_range(length());
+      }
+    }
+    add(std::move(part));
+  }
+
+  int take_unused() {
+    const int place = random_.integer(0, static_cast<int>(unused_.size()) - 1);
+    const int part = unused_[place];
+    unused_.erase(unused_.begin() + place);
+    return part;
+  }
+
+  // A transform or an operator over nodes that nothing refers to yet, and sometimes one that something does.
+  void add_above() {
+    if (options_.transforms && random_.chance(0.25)) {
+      const int child = take_unused();
+      if (parts_[child].transforms < kMostTransformsAbove) {
+        add_transform(child);
+        return;
+      }
+      unused_.push_back(child);
+    }
+    std::vector<int> children;
+    const int count = random_.chance(0.7) ? 2 : random_.integer(1, 5);
+    while (static_cast<int>(children.size()) < count && !unused_.empty()) children.push_back(take_unused());
+    if (options_.sharing && random_.chance(0.15)) {
+      const int other = random_.integer(0, static_cast<int>(parts_.size()) - 1);
+      int instances = parts_[other].instances;
+      for (const int child : children) instances += parts_[child].instances;
+      if (instances <= kMostInstances / 4) children.push_back(other);
+      std::erase(unused_, other);
+    }
+    add_operator(std::move(children));
+  }
+
+  void add_transform(int child) {
+    Part part;
+    part.children = {child};
+    v1::Transform& t = *part.node.mutable_transform();
+    if (random_.chance(0.2)) {  // shear
+      const blobtree::dvec3 offset = random_.point(-0.3, 0.3);
+      const double offsets[] = {offset.x, offset.y, offset.z};
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+          t.add_matrix(row == column ? random_.number(0.7, 1.4) : random_.number(-0.25, 0.25));
+        }
+        t.add_matrix(offsets[row]);
+      }
+      add(std::move(part));
+      return;
+    }
+    if (random_.chance(0.8)) set_point(t.mutable_translation(), random_.point(-0.3, 0.3));
+    if (random_.chance(0.6)) {
+      set_point(t.mutable_rotation(), random_.point(0.1, 1));
+      t.add_rotation(random_.number(-180, 180));
+    }
+    const double kind = random_.number(0, 1);
+    if (kind < 0.3) {
+      t.add_scale(random_.number(0.6, 1.6));
+    } else if (kind < 0.6) {
+      set_point(t.mutable_scale(), random_.point(0.6, 1.6));
+      if (random_.chance(0.3)) t.set_scale(random_.integer(0, 2), -random_.number(0.6, 1.6));
+    }
+    add(std::move(part));
+  }
+
+  void add_operator(std::vector<int> children) {
+    Part part;
+    part.children = std::move(children);
+    const double kind = random_.number(0, options_.cuts ? 1 : 0.7);
+    if (kind < 0.4) {
+      fill_gradient(*part.node.mutable_gradient());
+    } else if (kind < 0.55) {
+      part.node.mutable_sum();
+    } else if (kind < 0.7) {
+      part.node.mutable_max();
+    } else if (kind < 0.78) {
+      part.node.mutable_ricci()->set_exponent(random_.chance(0.2) ? 1 : random_.number(1, 8));
+    } else if (kind < 0.86) {
+      part.node.mutable_min();
+    } else if (part.children.size() >= 2) {
+      part.node.mutable_difference();
+    } else {
+      part.node.mutable_max();
+    }
+    add(std::move(part));
+  }
+
+  void fill_gradient(v1::GradientBlend& g) {
+    if (random_.chance(0.4)) {
+      g.mutable_silhouette()->set_kind(v1::Silhouette::BULGE);
+      g.mutable_silhouette()->set_k(random_.number(0.1, 0.9));
+    } else if (random_.chance(0.5)) {
+      g.mutable_silhouette()->set_kind(v1::Silhouette::SMOOTH);
+    }
+    const double kind = random_.number(0, 1);
+    if (kind < 0.1) return;  // the default
+    v1::Opening& o = *g.mutable_opening();
+    if (kind < 0.7) {
+      o.set_preset(static_cast<v1::Opening::Preset>(random_.integer(1, 3)));
+      if (random_.chance(0.3)) o.set_theta1(random_.number(0, 45));
+      return;
+    }
+    o.set_alpha0(random_.number(0, 50));
+    o.set_alpha1(random_.number(60, 110));
+    o.set_alpha2(random_.number(120, 180));
+    o.set_theta0(random_.number(0, 45));
+    o.set_theta1(random_.number(0, 45));
+    o.set_theta2(random_.number(0, 45));
+    o.set_w0(random_.number(0.5, 3));
+    o.set_w1(random_.number(0.5, 3));
+  }
+
+  // The nodes in any order, referred to by name or by place.
+  v1::Scene shuffled() {
+    const int count = static_cast<int>(parts_.size());
+    std::vector<int> place(count);
+    std::iota(place.begin(), place.end(), 0);
+    for (int i = count - 1; i > 0; --i) std::swap(place[i], place[random_.integer(0, i)]);
+    std::vector<std::string> reference(count);
+    for (int i = 0; i < count; ++i) {
+      reference[i] = absl::StrCat("#", place[i]);
+      if (random_.chance(0.5)) {
+        reference[i] = absl::StrCat("group/part_", i);
+        parts_[i].node.set_name(reference[i]);
+      }
+    }
+    v1::Scene scene;
+    for (int i = 0; i < count; ++i) scene.add_nodes();
+    for (int i = 0; i < count; ++i) {
+      for (const int child : parts_[i].children) add_reference(parts_[i].node, reference[child]);
+      *scene.mutable_nodes(place[i]) = parts_[i].node;
+    }
+    scene.set_root(reference[count - 1]);
+    return scene;
+  }
+
+  static void add_reference(v1::Node& node, const std::string& child) {
+    switch (node.kind_case()) {
+      case v1::Node::kSum:
+        return node.mutable_sum()->add_children(child);
+      case v1::Node::kMax:
+        return node.mutable_max()->add_children(child);
+      case v1::Node::kMin:
+        return node.mutable_min()->add_children(child);
+      case v1::Node::kDifference:
+        return node.mutable_difference()->add_children(child);
+      case v1::Node::kRicci:
+        return node.mutable_ricci()->add_children(child);
+      case v1::Node::kGradient:
+        return node.mutable_gradient()->add_children(child);
+      default:
+        node.mutable_transform()->set_child(child);
+    }
+  }
+
+  Random random_;
+  RandomSceneOptions options_;
+  std::vector<Part> parts_;
+  std::vector<int> unused_;  // parts that nothing refers to
+};
+
+}  // namespace
+
+v1::Scene random_scene(std::uint64_t seed, const RandomSceneOptions& options) {
+  return SceneMaker(seed, options).make();
+}
+
+}  // namespace isofield::test_support

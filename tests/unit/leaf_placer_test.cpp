@@ -1,0 +1,139 @@
+#include "blobtree/leaf_placer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "blobtree/compiler.h"
+#include "blobtree/scene_reader.h"
+#include "support/random_scene.h"
+#include "support/scene_text.h"
+
+namespace isofield::blobtree {
+namespace {
+
+using test_support::compile_or_die;
+using test_support::Random;
+using test_support::read_or_die;
+using test_support::scene_of_nodes;
+
+double field_of(const Leaf& leaf, const dvec3& p) {
+  return soften(leaf.distance(p), leaf.range);
+}
+
+TEST(LeafPlacer, NothingReachesBeyondTheSupport) {
+  double fullest = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Tape tape = compile_or_die(read_or_die(test_support::random_scene(seed, {.nodes = 12})));
+    Random random(seed);
+    for (const Leaf& leaf : tape.leaves) {
+      ASSERT_FALSE(leaf.support.empty());
+      const dvec3 size = leaf.support.max - leaf.support.min;
+      int inside = 0;
+      for (int i = 0; i < 300; ++i) {
+        const dvec3 p{leaf.support.min.x + size.x * random.number(-0.2, 1.2),
+                      leaf.support.min.y + size.y * random.number(-0.2, 1.2),
+                      leaf.support.min.z + size.z * random.number(-0.2, 1.2)};
+        const double f = field_of(leaf, p);
+        if (!leaf.support.touches({p, p})) {
+          ASSERT_EQ(f, 0) << "seed " << seed;
+        } else if (f > 0) {
+          ++inside;
+        }
+      }
+      fullest = std::max(fullest, inside / 300.0);
+      EXPECT_GT(inside, 5) << "seed " << seed << ": the support box is far too large";
+    }
+  }
+  EXPECT_GT(fullest, 0.2);
+}
+
+TEST(LeafPlacer, SupportsAreTightForPlainShapes) {
+  // Each touches its box on both sides of every axis: just inside the box's faces there is a field.
+  for (const char* text :
+       {R"({"sphere": {"center": [1,2,3], "radius": 0.5, "range": 0.25}})",
+        R"({"ellipsoid": {"semi_axes": [1,0.5,0.25], "range": 0.25}})",
+        R"({"box": {"half_size": [1,0.5,0.25], "range": 0.25}})",
+        R"({"torus": {"major_radius": 1, "minor_radius": 0.25, "range": 0.25}})",
+        R"({"cylinder": {"a": [0,0,-1], "b": [0,0,1], "radius": 0.5, "range": 0.25}})",
+        R"({"segment": {"a": [0,0,-1], "b": [0,0,1], "radius_a": 0.5, "radius_b": 0.5, "range": 0.25}})"}) {
+    SCOPED_TRACE(text);
+    const Leaf leaf = compile_or_die(read_or_die(scene_of_nodes(text))).leaves[0];
+    const dvec3 middle = (leaf.support.min + leaf.support.max) * 0.5;
+    const bool ring = leaf.shape == Shape::kTorus;
+    const dvec3 size = leaf.support.max - leaf.support.min;
+    for (const double side : {-0.4999, 0.4999}) {
+      EXPECT_GT(field_of(leaf, middle + dvec3{size.x * side, 0, 0}), 0);
+      EXPECT_GT(field_of(leaf, middle + dvec3{0, size.y * side, 0}), 0);
+      EXPECT_GT(field_of(leaf, middle + dvec3{ring ? 1.0 : 0.0, 0, size.z * side}), 0);
+    }
+  }
+}
+
+TEST(LeafPlacer, StretchBoundsTheSlopeOfTheDistance) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Tape tape = compile_or_die(read_or_die(test_support::random_scene(seed, {.nodes = 12})));
+    Random random(seed);
+    for (const Leaf& leaf : tape.leaves) {
+      for (int i = 0; i < 50; ++i) {
+        const dvec3 p = random.point(-3, 3), q = p + random.point(-0.3, 0.3);
+        ASSERT_LE(std::abs(leaf.distance(p) - leaf.distance(q)), leaf.stretch * length(p - q) * (1 + 1e-9));
+      }
+    }
+  }
+}
+
+TEST(LeafPlacer, SimilarPlacementsAreRigid) {
+  const Tape tape = compile_or_die(read_or_die(scene_of_nodes(
+      R"({"segment": {"a": [0,0,0], "b": [1,2,2], "radius_a": 0.5, "radius_b": 0.25, "range": 0.25}},
+         {"transform": {"child": "#0", "scale": [3,-3,3], "rotation": [1,2,3,40], "translation": [5,6,7]}})")));
+  const Leaf& leaf = tape.leaves[0];
+  EXPECT_EQ(leaf.operand, Operand::kSegment);
+  EXPECT_EQ(leaf.stretch, 1);
+  EXPECT_NEAR(leaf.size[0], 9, 1e-12);
+  EXPECT_NEAR(leaf.size[1], 1.5, 1e-12);
+  EXPECT_NEAR(leaf.range, 0.75, 1e-12);
+  EXPECT_NEAR(leaf.to_local.stretch().least, 1, 1e-12);
+  EXPECT_NEAR(leaf.to_local.stretch().most, 1, 1e-12);
+}
+
+TEST(LeafPlacer, UniformScaleMayBeLargeOrSmall) {
+  // The lengths in the world are what counts: 2e-5 and 2e5.
+  for (const char* scale : {"1e-5", "1e5"}) {
+    const auto scene = read_scene(scene_of_nodes(std::string(R"({"sphere": {"radius": 1, "range": 2}},
+      {"transform": {"child": "#0", "scale": [)") +
+                                                 scale + "]}}"));
+    ASSERT_TRUE(scene.ok());
+    const auto tape = compile(*scene);
+    EXPECT_TRUE(tape.ok()) << tape.status().message();
+  }
+}
+
+void expect_refused(const std::string& nodes) {
+  const auto scene = read_scene(scene_of_nodes(nodes));
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  const auto tape = compile(*scene);
+  ASSERT_FALSE(tape.ok()) << nodes;
+  EXPECT_EQ(tape.status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_NE(std::string(tape.status().message()).find("nodes[0] 'ball'"), std::string::npos) << tape.status().message();
+}
+
+TEST(LeafPlacer, LengthsThatLeaveTheirRangeAreRefused) {
+  const std::string ball = R"({"name": "ball", "sphere": {"radius": 1e3, "range": 1}}, )";
+  expect_refused(
+      ball + R"({"transform": {"child": "ball", "scale": [1e-5]}}, {"transform": {"child": "#1", "scale": [1e-5]}})");
+  expect_refused(ball +
+                 R"({"transform": {"child": "ball", "scale": [1e5]}}, {"transform": {"child": "#1", "scale": [1e5]}})");
+  // The radius alone leaves it.
+  expect_refused(ball + R"({"transform": {"child": "ball", "scale": [1e7]}})");
+  expect_refused(ball + R"({"transform": {"child": "ball", "translation": [9e8,0,0]}},
+                           {"transform": {"child": "#1", "translation": [9e8,0,0]}})");
+  // A product of maps that each are well conditioned: stretches by 1e-10 along one oblique axis.
+  expect_refused(ball + R"({"transform": {"child": "ball", "rotation": [1,2,3,40], "scale": [1e-5,1,1]}},
+                           {"transform": {"child": "#1", "scale": [1e-5,1,1], "rotation": [1,2,3,40]}},
+                           {"transform": {"child": "#2", "rotation": [3,2,3,70], "scale": [1e-5,1,1]}})");
+}
+
+}  // namespace
+}  // namespace isofield::blobtree
