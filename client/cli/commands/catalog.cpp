@@ -1,0 +1,175 @@
+#include <absl/strings/ascii.h>
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_format.h>
+#include <absl/strings/str_split.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "commands/context.h"
+#include "commands/import_flags.h"
+#include "commands/scene_argument.h"
+#include "exit_codes.h"
+#include "isofield/scene_file.h"
+#include "json_output.h"
+
+namespace isofield {
+namespace {
+
+std::string describe(const v1::SceneSummary& summary) {
+  return absl::StrCat(summary.name(), ": version ", summary.version(), ", ", summary.nodes(), " nodes, ",
+                      summary.primitives(), " primitives, ", summary.device_bytes(), " bytes on the device");
+}
+
+void print(const v1::SceneSummary& summary, bool json) {
+  if (json) {
+    print_json(summary);
+  } else {
+    std::printf("%s\n", describe(summary).c_str());
+  }
+}
+
+// A file's stem in the letters that a scene's name may have.
+std::string name_for(const std::string& path) {
+  std::string name = stem(path);
+  for (char& c : name) {
+    if (!absl::ascii_isalnum(c) && c != '_' && c != '-' && c != '.') c = '_';
+  }
+  return name.empty() ? "scene" : name.substr(0, 128);
+}
+
+absl::Status put(const Context& context, const std::string& file, const std::string& name, const ImportFlags& flags) {
+  auto loaded = load_scene(file, flags.get());
+  if (!loaded.ok()) return loaded.status();
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto summary = client->put_scene(name.empty() ? name_for(file) : name, std::move(loaded->scene));
+  if (!summary.ok()) return summary.status();
+  print(*summary, context.json);
+  return absl::OkStatus();
+}
+
+absl::Status list(const Context& context) {
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto scenes = client->list_scenes();
+  if (!scenes.ok()) return scenes.status();
+  if (context.json) {
+    v1::ListScenesResponse all;
+    for (const auto& summary : *scenes) *all.add_scenes() = summary;
+    print_json(all);
+    return absl::OkStatus();
+  }
+  if (!scenes->empty()) absl::PrintF("%-32s %10s %10s %12s %14s\n", "NAME", "VERSION", "NODES", "PRIMITIVES", "BYTES");
+  for (const auto& summary : *scenes) {
+    absl::PrintF("%-32s %10u %10u %12u %14u\n", summary.name(), summary.version(), summary.nodes(),
+                 summary.primitives(), summary.device_bytes());
+  }
+  return absl::OkStatus();
+}
+
+absl::Status show(const Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto response = client->get_scene(name);
+  if (!response.ok()) return response.status();
+  if (context.json) {
+    print_json(*response);
+    return absl::OkStatus();
+  }
+  const auto text = format_scene_json(response->scene());
+  if (!text.ok()) return text.status();
+  std::fprintf(stderr, "%s\n", describe(response->summary()).c_str());
+  std::fwrite(text->data(), 1, text->size(), stdout);
+  return absl::OkStatus();
+}
+
+absl::Status remove(const Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  if (auto status = client->delete_scene(name); !status.ok()) return status;
+  if (context.json) JsonObject().set("deleted", name).print();
+  return absl::OkStatus();
+}
+
+// "NODE.FIELD=v[,v..]"; a node's name has no dot.
+absl::Status parse_edit(const std::string& text, v1::ParameterEdit& edit) {
+  const std::size_t equals = text.rfind('=');
+  const std::size_t dot = text.find('.');
+  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals) {
+    return usage_error(absl::StrCat("\"", text, "\": expected NODE.FIELD=NUMBER[,NUMBER..], such as arm.radius=2"));
+  }
+  edit.set_node(text.substr(0, dot));
+  edit.set_field(text.substr(dot + 1, equals - dot - 1));
+  for (const absl::string_view number : absl::StrSplit(absl::string_view(text).substr(equals + 1), ',')) {
+    double value = 0;
+    if (!absl::SimpleAtod(number, &value)) {
+      return usage_error(absl::StrCat("\"", text, "\": \"", number, "\" is no number"));
+    }
+    edit.add_values(value);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status edit(const Context& context, const std::string& name, const std::vector<std::string>& edits,
+                  std::uint64_t expected_version) {
+  v1::EditParametersRequest request;
+  request.set_name(name);
+  request.set_expected_version(expected_version);
+  for (const std::string& text : edits) {
+    if (auto status = parse_edit(text, *request.add_edits()); !status.ok()) return status;
+  }
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto summary = client->edit_parameters(request);
+  if (!summary.ok()) return summary.status();
+  print(*summary, context.json);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void add_catalog_commands(CLI::App& app, Context& context) {
+  struct Arguments {
+    std::string file, name;
+    ImportFlags flags;
+    std::vector<std::string> edits;
+    std::uint64_t version = 0;
+  };
+  // The commands' callbacks live as long as the app, and so must what they read.
+  const auto arguments = std::make_shared<Arguments>();
+
+  CLI::App* command = app.add_subcommand("put", "Store a scene on the server, replacing one of that name");
+  command->add_option("FILE", arguments->file, "Scene (.json, .pb), or a file to import (.swc, .pdb, .xyz, .txt)")
+      ->required();
+  command->add_option("--name", arguments->name, "Name on the server (default: the file's, without its extension)");
+  arguments->flags.add_to(*command);
+  command->callback(
+      [&context, arguments] { context.outcome = put(context, arguments->file, arguments->name, arguments->flags); });
+
+  command = app.add_subcommand("ls", "List the server's scenes");
+  command->callback([&context] { context.outcome = list(context); });
+
+  command = app.add_subcommand("show", "Print a scene of the server as JSON");
+  command->add_option("NAME", arguments->name)->required();
+  command->callback([&context, arguments] { context.outcome = show(context, arguments->name); });
+
+  command = app.add_subcommand("rm", "Delete a scene of the server");
+  command->add_option("NAME", arguments->name)->required();
+  command->callback([&context, arguments] { context.outcome = remove(context, arguments->name); });
+
+  command = app.add_subcommand("edit", "Change numbers of a scene on the server; all of them, or none");
+  command->add_option("NAME", arguments->name)->required();
+  command
+      ->add_option("EDITS", arguments->edits,
+                   "NODE.FIELD=NUMBER[,NUMBER..] ..., such as arm.radius=2 '#0.center=1,0,0'")
+      ->required();
+  command->add_option("--expect-version", arguments->version, "Only when the scene has this version");
+  command->callback([&context, arguments] {
+    context.outcome = edit(context, arguments->name, arguments->edits, arguments->version);
+  });
+}
+
+}  // namespace isofield

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+#include <string>
+
+#include "isofield/client.h"
+
+namespace CLI {
+class App;
+}
+
+namespace isofield {
+
+// What all commands share: the global options, and where the chosen command leaves its outcome.
+struct Context {
+  std::string server;
+  // Standard output is for machines: one JSON object.
+  bool json = false;
+  // Seconds, for every request; 0: the client's defaults.
+  double timeout = 0;
+  absl::Status outcome;
+
+  absl::StatusOr<Client> connect() const;
+};
+
+// Each adds its commands to the command line, and runs the chosen one when it is parsed.
+void add_catalog_commands(CLI::App& app, Context& context);  // put, ls, show, rm, edit
+void add_import_command(CLI::App& app, Context& context);
+void add_eval_command(CLI::App& app, Context& context);
+void add_mesh_command(CLI::App& app, Context& context);
+void add_render_command(CLI::App& app, Context& context);
+void add_info_command(CLI::App& app, Context& context);
+
+}  // namespace isofield

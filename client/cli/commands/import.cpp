@@ -1,0 +1,59 @@
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands/context.h"
+#include "commands/import_flags.h"
+#include "commands/scene_argument.h"
+#include "exit_codes.h"
+#include "isofield/scene_file.h"
+#include "json_output.h"
+#include "output_file.h"
+
+namespace isofield {
+namespace {
+
+absl::Status import(const Context& context, const std::string& path, const std::string& output,
+                    const ImportFlags& flags) {
+  const auto loaded = load_scene(path, flags.get());
+  if (!loaded.ok()) return loaded.status();
+  absl::StatusOr<std::string> text;
+  if (absl::EndsWithIgnoreCase(output, ".pb")) {
+    text = loaded->scene.SerializeAsString();
+  } else {
+    text = format_scene_json(loaded->scene);
+  }
+  if (!text.ok()) return text.status();
+  auto file = OutputFile::create(output);
+  if (!file.ok()) return file_error(file.status());
+  absl::Status status = (*file)->write(*text);
+  if (status.ok()) status = (*file)->commit();
+  if (!status.ok()) return file_error(status);
+  if (context.json && output != "-" && loaded->report) {
+    JsonObject().set("file", output).set("report", to_json(*loaded->report)).print();
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app, Context& context) {
+  struct Arguments {
+    std::string file, output = "-";
+    ImportFlags flags;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("import", "Make a scene of a neuron, a molecule or points; needs no server");
+  command->add_option("FILE", arguments->file, "Neuron (.swc), molecule (.pdb, .xyz) or lines \"x y z\" (.xyz, .txt)")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "Scene to write (.json, .pb); - is the standard output")
+      ->capture_default_str();
+  arguments->flags.add_to(*command);
+  command->callback([&context, arguments] {
+    context.outcome = import(context, arguments->file, arguments->output, arguments->flags);
+  });
+}
+
+}  // namespace isofield

@@ -1,0 +1,45 @@
+#include <absl/strings/str_format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "commands/context.h"
+#include "json_output.h"
+
+namespace isofield {
+namespace {
+
+constexpr double kMiB = 1 << 20;
+
+absl::Status info(const Context& context) {
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto info = client->info();
+  if (!info.ok()) return info.status();
+  if (context.json) {
+    print_json(*info);
+    return absl::OkStatus();
+  }
+  const auto& device = info->device();
+  const auto& limits = info->limits();
+  absl::PrintF("isofieldd %s at %s, up for %.0f s\n", info->version(), context.server, info->uptime_seconds());
+  absl::PrintF("device   %s (%s); Vulkan %s; %s; subgroups of %u\n", device.name(), device.type(),
+               device.vulkan_version(), device.driver(), device.subgroup_size());
+  absl::PrintF("resident %u scenes, %.1f MiB of scenes, %.1f MiB in all\n", info->resident_scenes(),
+               static_cast<double>(info->scene_bytes()) / kMiB, static_cast<double>(info->device_bytes()) / kMiB);
+  absl::PrintF("limits   %u scenes; %u nodes and %u primitives a scene; stack depth %u\n", limits.max_scenes(),
+               limits.max_nodes(), limits.max_primitives(), limits.max_stack_depth());
+  absl::PrintF("         %u bytes and %u points a message; %u points a grid; %u cells a mesh\n",
+               limits.max_message_bytes(), limits.max_points_per_message(), limits.max_grid_points(),
+               limits.max_mesh_cells());
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Context& context) {
+  app.add_subcommand("info", "Tell what the server is, what it admits and what it holds")->callback([&context] {
+    context.outcome = info(context);
+  });
+}
+
+}  // namespace isofield

@@ -1,0 +1,66 @@
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+
+#include "commands/mesh_flags.h"
+#include "commands/scene_argument.h"
+#include "exit_codes.h"
+#include "json_output.h"
+#include "mesh_files/mesh_file.h"
+
+namespace isofield {
+namespace {
+
+absl::Status mesh(const Context& context, const MeshFlags& flags, const std::string& output) {
+  const auto format = mesh_format(output);
+  if (!format) {
+    return usage_error(
+        absl::StrCat(output, ": not a mesh format that can be written; expected .glb, .obj, .ply or .stl"));
+  }
+  double seconds = 0;
+  const auto mesh = flags.request(context, seconds);
+  if (!mesh.ok()) return mesh.status();
+  const auto start = std::chrono::steady_clock::now();
+  auto file = OutputFile::create(output);
+  if (!file.ok()) return file_error(file.status());
+  absl::Status status = write_mesh(*mesh, *format, stem(flags.scene), **file);
+  const std::uint64_t bytes = (*file)->bytes();
+  if (status.ok()) status = (*file)->commit();
+  if (!status.ok()) return file_error(status);
+  const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (context.json) {
+    JsonObject()
+        .set("file", output)
+        .set("bytes", static_cast<double>(bytes))
+        .set("request_seconds", seconds)
+        .set("write_seconds", write_seconds)
+        .set("summary", mesh->summary)
+        .print();
+  } else {
+    absl::PrintF("%s: %u vertices, %u triangles, cell %g; server %.3f s, request %.3f s, writing %.3f s\n", output,
+                 mesh->vertex_count(), mesh->triangle_count(), mesh->summary.cell_size(), mesh->summary.seconds(),
+                 seconds, write_seconds);
+    if (mesh->triangles.empty()) absl::FPrintF(stderr, "the surface is empty\n");
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& app, Context& context) {
+  struct Arguments {
+    MeshFlags flags;
+    std::string output;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("mesh", "Mesh the surface into a file");
+  arguments->flags.add_to(*command);
+  command->add_option("-o,--output", arguments->output, "Mesh to write (.glb, .obj, .ply, .stl)")->required();
+  command->add_flag("--no-normals", arguments->flags.omit_normals, "Leave the normals out");
+  command->callback([&context, arguments] { context.outcome = mesh(context, arguments->flags, arguments->output); });
+}
+
+}  // namespace isofield

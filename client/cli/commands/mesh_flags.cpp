@@ -1,0 +1,56 @@
+#include "commands/mesh_flags.h"
+
+#include <absl/strings/str_format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+
+#include "commands/scene_argument.h"
+#include "progress_line.h"
+
+namespace isofield {
+void MeshFlags::add_to(CLI::App& command) {
+  command.add_option("SCENE", scene, "A file, or else a name on the server")->required();
+  auto* cell_option =
+      command
+          .add_option("--cell", cell,
+                      "Edge length of a cell, in model units (default: chosen by the server after the thinnest part)")
+          ->check(CLI::PositiveNumber);
+  command.add_option("--resolution", resolution, "Cells along the longest edge of the bounds")
+      ->check(CLI::Range(1, 1048576))
+      ->excludes(cell_option);
+  command.add_option("--bounds", bounds, "x0,y0,z0,x1,y1,z1 in model units (default: all of the scene)")
+      ->delimiter(',')
+      ->expected(6);
+  command.add_option("--iso", iso, "Iso value of the surface, within ]0, 1[")->capture_default_str();
+  import.add_to(command);
+}
+
+absl::StatusOr<Mesh> MeshFlags::request(const Context& context, double& seconds) const {
+  v1::MeshRequest request;
+  auto reference = scene_argument(scene, import.get());
+  if (!reference.ok()) return reference.status();
+  *request.mutable_scene() = *std::move(reference);
+  if (cell) {
+    request.set_cell_size(*cell);
+  } else if (resolution) {
+    request.set_resolution(*resolution);
+  }
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    (i < 3 ? request.mutable_bounds_min() : request.mutable_bounds_max())->Add(bounds[i]);
+  }
+  request.set_iso(iso);
+  request.set_omit_normals(omit_normals);
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  ProgressLine progress(!context.json);
+  const auto start = std::chrono::steady_clock::now();
+  auto mesh = client->mesh(request, [&](double fraction) {
+    progress.show(absl::StrFormat("meshing: %3.0f %%", 100 * fraction));
+    return true;
+  });
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return mesh;
+}
+
+}  // namespace isofield

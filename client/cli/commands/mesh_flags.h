@@ -1,0 +1,29 @@
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/context.h"
+#include "commands/import_flags.h"
+
+namespace isofield {
+
+// What the commands that need a mesh ask for, and the request itself.
+struct MeshFlags {
+  std::string scene;
+  std::optional<double> cell;
+  std::optional<std::uint32_t> resolution;
+  std::vector<double> bounds;  // x0, y0, z0, x1, y1, z1, or empty
+  double iso = 0.5;
+  bool omit_normals = false;
+  ImportFlags import;
+
+  void add_to(CLI::App& command);
+  // With a progress line on a terminal. `seconds`: from the request to the last byte.
+  absl::StatusOr<Mesh> request(const Context& context, double& seconds) const;
+};
+
+}  // namespace isofield

@@ -1,0 +1,46 @@
+#include "commands/scene_argument.h"
+
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "exit_codes.h"
+#include "isofield/client.h"
+#include "isofield/scene_file.h"
+
+namespace isofield {
+
+absl::StatusOr<LoadedScene> load_scene(const std::string& path, const ImportOptions& options) {
+  if (import_format(path)) {
+    auto imported = import_file(path, options);
+    if (!imported.ok()) return file_error(imported.status());
+    std::fputs(imported->report.text().c_str(), stderr);
+    return LoadedScene{std::move(imported->scene), std::move(imported->report)};
+  }
+  auto scene = read_scene_file(path);
+  if (!scene.ok()) return file_error(scene.status());
+  return LoadedScene{*std::move(scene), std::nullopt};
+}
+
+absl::StatusOr<v1::SceneRef> scene_argument(const std::string& argument, const ImportOptions& options) {
+  std::error_code ignored;
+  if (std::filesystem::exists(argument, ignored) && !std::filesystem::is_directory(argument, ignored)) {
+    auto loaded = load_scene(argument, options);
+    if (!loaded.ok()) return loaded.status();
+    return inline_scene(std::move(loaded->scene));
+  }
+  // No name in the catalog ends like this by accident.
+  if (import_format(argument) || absl::EndsWith(argument, ".json") || absl::EndsWith(argument, ".pb")) {
+    return file_error(absl::NotFoundError(absl::StrCat(argument, ": no such file")));
+  }
+  return scene_by_name(argument);
+}
+
+std::string stem(const std::string& path) {
+  return std::filesystem::path(path).stem().string();
+}
+
+}  // namespace isofield

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <optional>
+#include <string>
+
+#include "isofield/import.h"
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield {
+
+// A scene from a file, and what its import had to report.
+struct LoadedScene {
+  v1::Scene scene;
+  std::optional<ImportReport> report;
+};
+
+// Reads .json and .pb scenes, and imports the formats of import.h. An import's report goes to the standard error.
+absl::StatusOr<LoadedScene> load_scene(const std::string& path, const ImportOptions& options);
+
+// SCENE of the command line: a file if there is one of that name, else a name on the server.
+absl::StatusOr<v1::SceneRef> scene_argument(const std::string& argument, const ImportOptions& options);
+
+// A file's name without its directories and extension.
+std::string stem(const std::string& path);
+
+}  // namespace isofield

@@ -1,0 +1,32 @@
+#include "exit_codes.h"
+
+#include <absl/strings/cord.h>
+
+namespace isofield {
+namespace {
+
+// Payloads survive the way up to main; their text is not used.
+constexpr char kFilePayload[] = "isofield/file";
+constexpr char kUsagePayload[] = "isofield/usage";
+
+}  // namespace
+
+absl::Status file_error(absl::Status status) {
+  status.SetPayload(kFilePayload, absl::Cord());
+  return status;
+}
+
+absl::Status usage_error(const std::string& message) {
+  absl::Status status = absl::InvalidArgumentError(message);
+  status.SetPayload(kUsagePayload, absl::Cord());
+  return status;
+}
+
+ExitCode exit_code(const absl::Status& status) {
+  if (status.ok()) return kSuccess;
+  if (status.GetPayload(kUsagePayload).has_value()) return kWrongUsage;
+  if (status.GetPayload(kFilePayload).has_value()) return kFileFailed;
+  return absl::IsUnavailable(status) ? kNoServer : kRequestFailed;
+}
+
+}  // namespace isofield

@@ -1,0 +1,24 @@
+#include "progress_line.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace isofield {
+
+ProgressLine::ProgressLine(bool enabled) : enabled_(enabled && ::isatty(STDERR_FILENO)) {}
+
+ProgressLine::~ProgressLine() {
+  // To the line's start, and clear it.
+  if (enabled_) std::fputs("\r\x1b[K", stderr);
+}
+
+void ProgressLine::show(const std::string& text) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!enabled_ || now < next_) return;
+  next_ = now + std::chrono::milliseconds(100);
+  std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace isofield

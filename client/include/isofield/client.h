@@ -1,0 +1,122 @@
+#pragma once
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "isofield/v1/info_service.pb.h"
+#include "isofield/v1/mesh_service.pb.h"
+#include "isofield/v1/scene.pb.h"
+#include "isofield/v1/scene_service.pb.h"
+
+namespace isofield {
+
+struct ClientOptions {
+  // Of requests that are answered by one message; none: wait for as long as it takes.
+  std::optional<std::chrono::milliseconds> unary_timeout = std::chrono::seconds(60);
+  // Of streams: large evaluations, grids and meshes.
+  std::optional<std::chrono::milliseconds> stream_timeout;
+  // How often a request that only reads is tried while the server is UNAVAILABLE; writes are tried once. >= 1.
+  int attempts = 3;
+  // Before the second attempt; doubled before each further one.
+  std::chrono::milliseconds backoff = std::chrono::milliseconds(100);
+};
+
+// A triangle mesh in model units; triangles are counter-clockwise seen from outside.
+struct Mesh {
+  // [n, 3] each: x, y, z; normals are unit vectors, empty where the request omitted them.
+  std::vector<float> positions;
+  std::vector<float> normals;
+  // [m, 3]: vertex numbers.
+  std::vector<std::uint32_t> triangles;
+  v1::MeshSummary summary;
+
+  std::size_t vertex_count() const { return positions.size() / 3; }
+  std::size_t triangle_count() const { return triangles.size() / 3; }
+};
+
+// Samples of a field on a grid.
+struct Grid {
+  // Points along x, y, z.
+  std::array<std::uint64_t, 3> counts;
+  // [counts[2], counts[1], counts[0], 1 or 4]: x varies fastest; value, or value and gradient.
+  std::vector<float> values;
+};
+
+// A connection to one isofieldd. Owns its channel; every method may be called from any number of threads at once.
+//
+// All errors are statuses whose message says what to do. UNAVAILABLE: no server answers, or it went away.
+// DEADLINE_EXCEEDED: see ClientOptions. CANCELLED: a callback asked for it. INTERNAL: the server's answer is malformed.
+// Anything else is the server's own word, as the .proto files state it.
+class Client {
+ public:
+  // Points of one chunk of a streamed evaluation: 768 KiB of coordinates, 1 MiB of values with gradients.
+  static constexpr std::size_t kChunkPoints = 65536;
+  // Up to this many points are evaluated by one message.
+  static constexpr std::size_t kUnaryPoints = 16384;
+
+  // Addresses: "HOST:PORT", "[IPV6]:PORT" or "unix:PATH". Connects when the first request is made.
+  // INVALID_ARGUMENT: not an address.
+  static absl::StatusOr<Client> connect(const std::string& address, const ClientOptions& options = {});
+  Client(Client&&) noexcept;
+  Client& operator=(Client&&) noexcept;
+  ~Client();
+
+  // Stores a scene, replacing one of that name. The second form may state a condition (scene_service.proto).
+  absl::StatusOr<v1::SceneSummary> put_scene(const std::string& name, v1::Scene scene);
+  absl::StatusOr<v1::SceneSummary> put_scene(const v1::PutSceneRequest& request);
+  absl::StatusOr<v1::GetSceneResponse> get_scene(const std::string& name);
+  // By name.
+  absl::StatusOr<std::vector<v1::SceneSummary>> list_scenes();
+  absl::Status delete_scene(const std::string& name);
+  // All edits are applied, or none.
+  absl::StatusOr<v1::SceneSummary> edit_parameters(const v1::EditParametersRequest& request);
+  absl::StatusOr<v1::GetInfoResponse> info();
+
+  // The field at points. xyz: [n, 3] in model units, finite. Returns [n, 1], or with the gradient [n, 4]. Small
+  // batches travel in one message, larger ones are streamed.
+  // INVALID_ARGUMENT: xyz is no multiple of 3, or a coordinate is not finite.
+  absl::StatusOr<std::vector<float>> evaluate(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient);
+
+  // Fills an empty vector with the [n, 3] coordinates of the next chunk, 0 <= n <= kChunkPoints; n = 0 ends the
+  // stream. Called on a thread of the client's own, while results are read. An error ends the evaluation with it.
+  using PointSource = std::function<absl::Status(std::vector<float>& xyz)>;
+  // Takes a chunk's coordinates and results ([n, 1] or [n, 4]), in the order sent, on the caller's thread. An error
+  // ends the evaluation with it.
+  using ResultSink = std::function<absl::Status(std::span<const float> xyz, std::span<const float> results)>;
+  // Evaluates any number of points with bounded memory: reading and writing overlap. Not retried.
+  absl::Status evaluate(const v1::SceneRef& scene, bool gradient, const PointSource& source, const ResultSink& sink);
+
+  // The field at origin + (i, j, k) * spacing; model units.
+  absl::StatusOr<Grid> evaluate_grid(const v1::SceneRef& scene, const std::array<double, 3>& origin,
+                                     const std::array<double, 3>& spacing, const std::array<std::uint64_t, 3>& counts,
+                                     bool gradient);
+
+  // Called with the fraction done, within [0, 1], on the caller's thread; false cancels the mesh.
+  using Progress = std::function<bool(double fraction)>;
+  absl::StatusOr<Mesh> mesh(const v1::MeshRequest& request, const Progress& progress = {});
+
+ private:
+  struct Impl;
+  explicit Client(std::unique_ptr<Impl> impl);
+
+  absl::StatusOr<std::vector<float>> evaluate_message(const v1::SceneRef& scene, std::span<const float> xyz,
+                                                      bool gradient);
+
+  std::unique_ptr<Impl> impl_;
+};
+
+// A reference to a scene of the server's catalog, and to one that travels with the request.
+v1::SceneRef scene_by_name(const std::string& name);
+v1::SceneRef inline_scene(v1::Scene scene);
+
+}  // namespace isofield

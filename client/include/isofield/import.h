@@ -1,0 +1,103 @@
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield {
+
+// Scenes from the files of other fields: neurons (SWC), molecules (PDB, XYZ) and bare points.
+//
+// Damage does not stop an import. What cannot be used is dropped or mended, and the report says what, where and why.
+
+enum class ImportFormat { kSwc, kPdb, kXyz };
+
+// How the pieces are joined; all by one n-ary operator node, named "model", over the pieces in the file's order.
+enum class ImportOperator {
+  // Gradient blends ([G] Table I). Camel blends branches at right angles and leaves aligned joints without a bulge.
+  kCamel,
+  kOrganic,
+  // With a BULGE silhouette of strength 0.8.
+  kContact,
+  kSum,
+  kMax,
+  // Exponent 4.
+  kRicci,
+};
+
+struct ImportOptions {
+  ImportOperator op = ImportOperator::kCamel;
+  // Range of each piece: range_factor * its radius (the larger one of a segment), or `range` where it is stated.
+  // Both > 0. Without either: neurons 1 * radius; molecules 0.5 * radius, which leaves the atoms visible. Bare points
+  // have the range that belongs to their R unless `range` is stated.
+  std::optional<double> range_factor;
+  std::optional<double> range;
+  // > 0. SWC: the radius of a sample that has none; without it, the smallest positive one of the file.
+  // Bare points: R of the soft objects, 0.5 without it. Molecules do not use it.
+  std::optional<double> radius;
+  // Of PDB files: keep water molecules, which are dropped otherwise.
+  bool keep_water = false;
+  // Scene::unit; empty: "angstrom" for molecules, none for others (SWC does not state one).
+  std::string unit;
+};
+
+// What became of a file.
+struct ImportReport {
+  // One kind of thing that happened to lines of the file.
+  struct Finding {
+    // Such as "sample dropped: a coordinate is not a finite number".
+    std::string what;
+    std::size_t count = 0;
+    // The first few: "line 17: ..." .
+    std::vector<std::string> examples;
+    // False for remarks on sound input, such as left out water.
+    bool damage = true;
+  };
+  // Such as "neuron (SWC)".
+  std::string format;
+  // Samples, atoms or points that the file has, and pieces (primitives) that were made of them.
+  std::size_t read = 0;
+  std::size_t pieces = 0;
+  std::vector<Finding> findings;
+
+  bool damaged() const;
+  // Lines for a person; the first is a summary.
+  std::string text() const;
+};
+
+struct Imported {
+  v1::Scene scene;
+  ImportReport report;
+};
+
+// By the file's extension: .swc; .pdb, .ent; .xyz, .txt. Nothing: not a format that can be imported.
+std::optional<ImportFormat> import_format(const std::string& path);
+
+// "camel", "organic", "contact", "sum", "max" or "ricci".
+std::optional<ImportOperator> import_operator(const std::string& name);
+
+// SWC: an edge is a segment (round cone) from a sample to its parent with both radii.
+//  - A root of type 1 (soma) and a sample without edges are spheres. Of a soma of three samples, the two that only
+//    state its diameter are left out. An edge from another type to a soma sample has the other's radius at both ends:
+//    the process comes out of the soma and does not taper from its width.
+//  - Samples with unusable numbers are dropped; their children, and those of samples that do not exist, become roots.
+//    Of doubled ids the first is used. A cycle is cut at its first sample in the file. A sample without a positive
+//    radius gets ImportOptions::radius. Edges of length 0 are dropped where another piece covers them.
+//  - Pieces come parents first; a file that is in that order keeps it. Named "n<id>" after the sample at the far end.
+// PDB: a sphere of van der Waals radius for each atom of the first model; alternate locations but the first, and
+// water, are left out. Named "CHAIN/RESIDUE/ATOM" where that is unique.
+// XYZ: "count, comment, lines of: element x y z" as molecules, first frame only; or lines "x y z" as soft objects
+// w(distance / R), that is radius r0 R and range (1 - r0) R.
+//
+// INVALID_ARGUMENT: an option out of its range, or nothing in the text that could be used; `name` stands for the file.
+absl::StatusOr<Imported> import_text(const std::string& text, ImportFormat format, const ImportOptions& options,
+                                     const std::string& name);
+
+// The same of a file; the format by its extension.
+absl::StatusOr<Imported> import_file(const std::string& path, const ImportOptions& options);
+
+}  // namespace isofield

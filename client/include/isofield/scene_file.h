@@ -1,0 +1,27 @@
+#pragma once
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+#include <string>
+
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield {
+
+// Scenes on disk: proto3 JSON (.json), or the binary message (.pb).
+
+// INVALID_ARGUMENT: not a scene; the message names the file, the place and what is wrong there.
+// NOT_FOUND, PERMISSION_DENIED ...: the file cannot be read.
+absl::StatusOr<v1::Scene> read_scene_file(const std::string& path);
+
+// The same of a text; `name` stands for the file in errors.
+absl::StatusOr<v1::Scene> parse_scene_json(const std::string& json, const std::string& name);
+
+// Proto3 JSON with a node a line, fields named as in scene.proto.
+absl::StatusOr<std::string> format_scene_json(const v1::Scene& scene);
+
+// The whole of a file, as bytes. NOT_FOUND, PERMISSION_DENIED ...: it cannot be read.
+absl::StatusOr<std::string> read_file(const std::string& path);
+
+}  // namespace isofield

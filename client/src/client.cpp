@@ -1,0 +1,124 @@
+#include "isofield/client.h"
+
+#include <absl/strings/str_cat.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+#include <grpcpp/support/channel_arguments.h>
+
+#include "address.h"
+#include "client_impl.h"
+
+namespace isofield {
+namespace {
+
+constexpr int kMaxMessageBytes = 64 << 20;
+
+}  // namespace
+
+Client::Client(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Client::Client(Client&&) noexcept = default;
+Client& Client::operator=(Client&&) noexcept = default;
+Client::~Client() = default;
+
+absl::StatusOr<Client> Client::connect(const std::string& address, const ClientOptions& options) {
+  const auto target = grpc_target(address);
+  if (!target.ok()) return target.status();
+  if (options.attempts < 1) return absl::InvalidArgumentError("ClientOptions::attempts: expected at least 1");
+
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
+  arguments.SetMaxSendMessageSize(-1);  // the server states its own limit
+  // The daemon is a neighbour, not a web site: a proxy of the environment would only be in the way.
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
+  // gRPC waits a second by default before it connects anew, longer than all our retries.
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, static_cast<int>(options.backoff.count()));
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, static_cast<int>(options.backoff.count()));
+  const auto channel = grpc::CreateCustomChannel(*target, grpc::InsecureChannelCredentials(), arguments);
+
+  auto impl = std::make_unique<Impl>();
+  impl->address = address;
+  impl->options = options;
+  impl->scenes = v1::SceneService::NewStub(channel);
+  impl->fields = v1::FieldService::NewStub(channel);
+  impl->meshes = v1::MeshService::NewStub(channel);
+  impl->infos = v1::InfoService::NewStub(channel);
+  return Client(std::move(impl));
+}
+
+absl::StatusOr<v1::SceneSummary> Client::put_scene(const std::string& name, v1::Scene scene) {
+  v1::PutSceneRequest request;
+  request.set_name(name);
+  *request.mutable_scene() = std::move(scene);
+  return put_scene(request);
+}
+
+absl::StatusOr<v1::SceneSummary> Client::put_scene(const v1::PutSceneRequest& request) {
+  v1::PutSceneResponse response;
+  const auto status =
+      impl_->call([&](grpc::ClientContext* context) { return impl_->scenes->PutScene(context, request, &response); });
+  if (!status.ok()) return status;
+  return std::move(*response.mutable_summary());
+}
+
+absl::StatusOr<v1::GetSceneResponse> Client::get_scene(const std::string& name) {
+  v1::GetSceneRequest request;
+  request.set_name(name);
+  v1::GetSceneResponse response;
+  const auto status = impl_->retry([&] {
+    return impl_->call(
+        [&](grpc::ClientContext* context) { return impl_->scenes->GetScene(context, request, &response); });
+  });
+  if (!status.ok()) return status;
+  return response;
+}
+
+absl::StatusOr<std::vector<v1::SceneSummary>> Client::list_scenes() {
+  v1::ListScenesResponse response;
+  const auto status = impl_->retry([&] {
+    return impl_->call([&](grpc::ClientContext* context) {
+      return impl_->scenes->ListScenes(context, v1::ListScenesRequest(), &response);
+    });
+  });
+  if (!status.ok()) return status;
+  return std::vector<v1::SceneSummary>(response.scenes().begin(), response.scenes().end());
+}
+
+absl::Status Client::delete_scene(const std::string& name) {
+  v1::DeleteSceneRequest request;
+  request.set_name(name);
+  v1::DeleteSceneResponse response;
+  return impl_->call(
+      [&](grpc::ClientContext* context) { return impl_->scenes->DeleteScene(context, request, &response); });
+}
+
+absl::StatusOr<v1::SceneSummary> Client::edit_parameters(const v1::EditParametersRequest& request) {
+  v1::EditParametersResponse response;
+  const auto status = impl_->call(
+      [&](grpc::ClientContext* context) { return impl_->scenes->EditParameters(context, request, &response); });
+  if (!status.ok()) return status;
+  return std::move(*response.mutable_summary());
+}
+
+absl::StatusOr<v1::GetInfoResponse> Client::info() {
+  v1::GetInfoResponse response;
+  const auto status = impl_->retry([&] {
+    return impl_->call(
+        [&](grpc::ClientContext* context) { return impl_->infos->GetInfo(context, v1::GetInfoRequest(), &response); });
+  });
+  if (!status.ok()) return status;
+  return response;
+}
+
+v1::SceneRef scene_by_name(const std::string& name) {
+  v1::SceneRef reference;
+  reference.set_name(name);
+  return reference;
+}
+
+v1::SceneRef inline_scene(v1::Scene scene) {
+  v1::SceneRef reference;
+  *reference.mutable_inline_() = std::move(scene);
+  return reference;
+}
+
+}  // namespace isofield

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <grpcpp/channel.h>
+#include <grpcpp/client_context.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "errors.h"
+#include "isofield/client.h"
+#include "isofield/v1/field_service.grpc.pb.h"
+#include "isofield/v1/info_service.grpc.pb.h"
+#include "isofield/v1/mesh_service.grpc.pb.h"
+#include "isofield/v1/scene_service.grpc.pb.h"
+
+namespace isofield {
+
+struct Client::Impl {
+  std::string address;
+  ClientOptions options;
+  std::unique_ptr<v1::SceneService::Stub> scenes;
+  std::unique_ptr<v1::FieldService::Stub> fields;
+  std::unique_ptr<v1::MeshService::Stub> meshes;
+  std::unique_ptr<v1::InfoService::Stub> infos;
+
+  static void set_timeout(grpc::ClientContext& context, std::optional<std::chrono::milliseconds> timeout) {
+    if (timeout) context.set_deadline(std::chrono::system_clock::now() + *timeout);
+  }
+
+  // `request`: absl::Status(), one attempt at something that only reads; tried again while UNAVAILABLE.
+  template <typename Request>
+  absl::Status retry(const Request& request) const {
+    auto pause = options.backoff;
+    for (int attempt = 1;; ++attempt) {
+      absl::Status status = request();
+      if (!absl::IsUnavailable(status) || attempt >= options.attempts) return status;
+      std::this_thread::sleep_for(pause);
+      pause *= 2;
+    }
+  }
+
+  // `method`: grpc::Status(grpc::ClientContext*), one message each way.
+  template <typename Method>
+  absl::Status call(const Method& method) const {
+    grpc::ClientContext context;
+    set_timeout(context, options.unary_timeout);
+    return from_grpc(method(&context), address);
+  }
+};
+
+}  // namespace isofield

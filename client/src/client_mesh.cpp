@@ -1,0 +1,78 @@
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+
+#include "client_impl.h"
+#include "tensor.h"
+
+namespace isofield {
+namespace {
+
+// What a summary may make us allocate before a byte of the mesh has arrived.
+constexpr std::uint64_t kMaxReserve = 1 << 26;
+
+absl::Status append_part(const v1::MeshPart& part, Mesh& mesh) {
+  absl::Status status;
+  if (part.has_positions()) status.Update(append_floats(part.positions(), 3, mesh.positions));
+  if (part.has_normals()) status.Update(append_floats(part.normals(), 3, mesh.normals));
+  if (part.has_triangles()) status.Update(append_indices(part.triangles(), 3, mesh.triangles));
+  return status;
+}
+
+// INTERNAL: the arrays do not hold what the summary announced.
+absl::Status check(const Mesh& mesh) {
+  const auto& summary = mesh.summary;
+  const bool normals_fit = mesh.normals.empty() || mesh.normals.size() == mesh.positions.size();
+  if (mesh.vertex_count() != summary.vertices() || mesh.triangle_count() != summary.triangles() || !normals_fit) {
+    return absl::InternalError(absl::StrCat("the server announced ", summary.vertices(), " vertices and ",
+                                            summary.triangles(), " triangles, but sent ", mesh.vertex_count(),
+                                            " positions, ", mesh.normals.size() / 3, " normals and ",
+                                            mesh.triangle_count(), " triangles"));
+  }
+  const auto largest = std::max_element(mesh.triangles.begin(), mesh.triangles.end());
+  if (largest != mesh.triangles.end() && *largest >= mesh.vertex_count()) {
+    return absl::InternalError(
+        absl::StrCat("the server sent a triangle of vertex ", *largest, " of ", mesh.vertex_count()));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<Mesh> Client::mesh(const v1::MeshRequest& request, const Progress& progress) {
+  Mesh mesh;
+  const auto attempt = [&]() -> absl::Status {
+    mesh = Mesh();
+    grpc::ClientContext context;
+    Impl::set_timeout(context, impl_->options.stream_timeout);
+    const auto stream = impl_->meshes->Mesh(&context, request);
+    v1::MeshResponse response;
+    absl::Status status;
+    while (status.ok() && stream->Read(&response)) {
+      switch (response.message_case()) {
+        case v1::MeshResponse::kProgress:
+          if (progress && !progress(response.progress().fraction())) status = absl::CancelledError("mesh cancelled");
+          break;
+        case v1::MeshResponse::kSummary:
+          mesh.summary = response.summary();
+          mesh.positions.reserve(3 * std::min(mesh.summary.vertices(), kMaxReserve));
+          if (!request.omit_normals()) mesh.normals.reserve(3 * std::min(mesh.summary.vertices(), kMaxReserve));
+          mesh.triangles.reserve(3 * std::min(mesh.summary.triangles(), kMaxReserve));
+          break;
+        case v1::MeshResponse::kPart:
+          status = append_part(response.part(), mesh);
+          break;
+        case v1::MeshResponse::MESSAGE_NOT_SET:
+          break;
+      }
+    }
+    if (!status.ok()) context.TryCancel();
+    const grpc::Status finished = stream->Finish();
+    if (!status.ok()) return status;
+    return finished.ok() ? check(mesh) : from_grpc(finished, impl_->address);
+  };
+  if (auto status = impl_->retry(attempt); !status.ok()) return status;
+  return mesh;
+}
+
+}  // namespace isofield

@@ -1,0 +1,40 @@
+#include "errors.h"
+
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
+
+namespace isofield {
+
+absl::Status from_grpc(const grpc::Status& status, const std::string& address) {
+  if (status.ok()) return absl::OkStatus();
+  const std::string& detail = status.error_message();
+  const auto code = static_cast<absl::StatusCode>(status.error_code());
+  switch (code) {
+    case absl::StatusCode::kUnavailable:
+      if (absl::StrContains(detail, "Socket closed") || absl::StrContains(detail, "reset by peer") ||
+          absl::StrContains(detail, "GOAWAY")) {
+        return absl::UnavailableError(absl::StrCat("the connection to isofieldd at ", address, " was lost (", detail,
+                                                   "); see the daemon's log, then try again"));
+      }
+      return absl::UnavailableError(absl::StrCat("no isofieldd answers at ", address, " (", detail,
+                                                 "); start one with: isofieldd --listen ", address));
+    case absl::StatusCode::kDeadlineExceeded:
+      return absl::DeadlineExceededError(
+          absl::StrCat("isofieldd at ", address, " did not finish in time (", detail, "); allow it a longer timeout"));
+    case absl::StatusCode::kUnimplemented:
+      return absl::UnimplementedError(absl::StrCat("the server at ", address, " does not know this request (", detail,
+                                                   "); is it an isofieldd of this version?"));
+    case absl::StatusCode::kResourceExhausted:
+      if (absl::StrContains(detail, "message larger than max")) {
+        return absl::ResourceExhaustedError(
+            absl::StrCat("the request does not fit one message (", detail, "); isofieldd's limits: isofield info"));
+      }
+      break;
+    default:
+      break;
+  }
+  return absl::Status(code,
+                      detail.empty() ? absl::StrCat("isofieldd at ", address, " failed without a message") : detail);
+}
+
+}  // namespace isofield

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <absl/strings/string_view.h>
+
+#include <optional>
+
+namespace isofield {
+
+// Van der Waals radii in angstrom: A. Bondi, "van der Waals Volumes and Radii", J. Phys. Chem. 68 (1964); for main
+// group elements that it lacks, M. Mantina et al., J. Phys. Chem. A 113 (2009).
+struct Element {
+  absl::string_view symbol;
+  // 0: neither paper has one.
+  double radius;
+};
+
+// Of elements without a radius.
+inline constexpr double kUnknownElementRadius = 2.0;
+
+// By symbol, in any case. D (deuterium) is H. Null: no such element.
+const Element* find_element(absl::string_view symbol);
+// By atomic number, from 1.
+const Element* find_element(long long number);
+
+}  // namespace isofield

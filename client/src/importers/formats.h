@@ -1,0 +1,17 @@
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <string>
+
+#include "isofield/import.h"
+
+namespace isofield {
+
+// Each adds the pieces of its format to an empty scene, sets the unit that the format implies, and reports.
+// INVALID_ARGUMENT: the text cannot be of this format, or lacks something that no default can stand for.
+absl::Status import_swc(const std::string& text, const ImportOptions& options, Imported& imported);
+absl::Status import_pdb(const std::string& text, const ImportOptions& options, Imported& imported);
+absl::Status import_xyz(const std::string& text, const ImportOptions& options, Imported& imported);
+
+}  // namespace isofield

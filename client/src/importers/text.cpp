@@ -1,0 +1,76 @@
+#include "importers/text.h"
+
+#include <absl/strings/ascii.h>
+#include <absl/strings/str_cat.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace isofield {
+
+bool LineReader::next_raw(absl::string_view& line) {
+  if (rest_.empty()) return false;
+  const std::size_t end = rest_.find_first_of("\r\n");
+  if (end == absl::string_view::npos) {
+    line = rest_;
+    rest_ = {};
+  } else {
+    line = rest_.substr(0, end);
+    rest_.remove_prefix(end + (rest_.substr(end, 2) == "\r\n" ? 2 : 1));
+  }
+  ++number_;
+  return true;
+}
+
+bool LineReader::next(absl::string_view& line) {
+  if (!next_raw(line)) return false;
+  // A byte order mark at the start of a file is no part of its first field.
+  if (number_ == 1 && line.substr(0, 3) == "\xEF\xBB\xBF") line.remove_prefix(3);
+  line = absl::StripAsciiWhitespace(line);
+  return true;
+}
+
+std::vector<absl::string_view> split_fields(absl::string_view line) {
+  constexpr absl::string_view kSeparators = " \t,;\v\f";
+  std::vector<absl::string_view> fields;
+  std::size_t at = 0;
+  while ((at = line.find_first_not_of(kSeparators, at)) != absl::string_view::npos) {
+    const std::size_t end = std::min(line.size(), line.find_first_of(kSeparators, at));
+    fields.push_back(line.substr(at, end - at));
+    at = end;
+  }
+  return fields;
+}
+
+std::optional<double> parse_double(absl::string_view field) {
+  if (!field.empty() && field.front() == '+') field.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error == std::errc::result_out_of_range) return HUGE_VAL;
+  if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<double> parse_length(absl::string_view field) {
+  constexpr double kLargest = 1e15;
+  const auto value = parse_double(field);
+  return value && std::abs(*value) <= kLargest ? value : std::nullopt;
+}
+
+std::optional<long long> parse_integer(absl::string_view field) {
+  const auto value = parse_double(field);
+  // Beyond 2^53 a double does not tell neighbours apart. NaN fails the comparison.
+  if (!value || !(std::abs(*value) <= 9007199254740992.0) || std::trunc(*value) != *value) return std::nullopt;
+  return static_cast<long long>(*value);
+}
+
+std::string quote_line(std::size_t number, absl::string_view line) {
+  constexpr std::size_t kLength = 60;
+  std::string text(line.substr(0, kLength));
+  for (char& c : text) {
+    if (!absl::ascii_isprint(c)) c = absl::ascii_isspace(c) ? ' ' : '?';
+  }
+  return absl::StrCat("line ", number, ": ", text, line.size() > kLength ? " ..." : "");
+}
+
+}  // namespace isofield

@@ -1,0 +1,55 @@
+#include "tensor.h"
+
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_join.h>
+
+#include <bit>
+#include <cstring>
+
+namespace isofield {
+namespace {
+
+// Bytes of a tensor are little-endian; they are copied, not converted.
+static_assert(std::endian::native == std::endian::little);
+
+template <typename T>
+absl::Status append(const v1::Tensor& tensor, v1::Tensor::DType dtype, std::uint64_t columns, std::vector<T>& out) {
+  const std::string& data = tensor.data();
+  // Divides rather than multiplies, so that no shape overflows.
+  std::uint64_t left = data.size() / sizeof(T);
+  bool fits = tensor.dtype() == dtype && data.size() % sizeof(T) == 0 && tensor.shape_size() > 0 &&
+              tensor.shape(tensor.shape_size() - 1) == columns;
+  for (int i = tensor.shape_size() - 1; fits && i >= 0 && left > 0; --i) {
+    fits = tensor.shape(i) > 0 && left % tensor.shape(i) == 0;
+    if (fits) left /= tensor.shape(i);
+  }
+  if (!fits || left > 1) {
+    return absl::InternalError(absl::StrCat("the server sent a malformed array: dtype ", tensor.dtype(), ", shape [",
+                                            absl::StrJoin(tensor.shape(), ", "), "], ", data.size(),
+                                            " bytes; expected dtype ", dtype, " and ", columns, " columns"));
+  }
+  const std::size_t before = out.size();
+  out.resize(before + data.size() / sizeof(T));
+  if (!data.empty()) std::memcpy(out.data() + before, data.data(), data.size());
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void set_points(std::span<const float> xyz, v1::Tensor& tensor) {
+  tensor.set_dtype(v1::Tensor::FLOAT32);
+  tensor.clear_shape();
+  tensor.add_shape(xyz.size() / 3);
+  tensor.add_shape(3);
+  tensor.set_data(xyz.data(), xyz.size_bytes());
+}
+
+absl::Status append_floats(const v1::Tensor& tensor, std::uint64_t columns, std::vector<float>& out) {
+  return append(tensor, v1::Tensor::FLOAT32, columns, out);
+}
+
+absl::Status append_indices(const v1::Tensor& tensor, std::uint64_t columns, std::vector<std::uint32_t>& out) {
+  return append(tensor, v1::Tensor::UINT32, columns, out);
+}
+
+}  // namespace isofield

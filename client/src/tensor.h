@@ -1,0 +1,21 @@
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield {
+
+// Makes `tensor` the FLOAT32 array [xyz.size() / 3, 3].
+void set_points(std::span<const float> xyz, v1::Tensor& tensor);
+
+// Appends an array whose last dimension is `columns` to `out`.
+// INTERNAL: the type, the shape and the bytes do not fit each other or the expectation.
+absl::Status append_floats(const v1::Tensor& tensor, std::uint64_t columns, std::vector<float>& out);
+absl::Status append_indices(const v1::Tensor& tensor, std::uint64_t columns, std::vector<std::uint32_t>& out);
+
+}  // namespace isofield

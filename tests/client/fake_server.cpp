@@ -1,0 +1,264 @@
+#include "fake_server.h"
+
+#include <grpcpp/security/server_credentials.h>
+#include <grpcpp/server_builder.h>
+
+#include <chrono>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+#include "test_support.h"
+
+namespace isofield {
+namespace {
+
+grpc::Status not_found(const std::string& name) {
+  return grpc::Status(grpc::StatusCode::NOT_FOUND, "no scene \"" + name + "\"");
+}
+
+void fill(const void* data, std::size_t bytes, v1::Tensor::DType type, std::initializer_list<std::uint64_t> shape,
+          v1::Tensor& tensor) {
+  tensor.set_dtype(type);
+  for (const std::uint64_t dimension : shape) tensor.add_shape(dimension);
+  tensor.set_data(data, bytes);
+}
+
+void evaluate(const v1::Tensor& points, bool gradient, v1::Tensor& result) {
+  std::vector<float> xyz(points.data().size() / sizeof(float));
+  if (!xyz.empty()) std::memcpy(xyz.data(), points.data().data(), points.data().size());
+  std::vector<float> out;
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
+    out.push_back(xyz[i] + 2 * xyz[i + 1] + 3 * xyz[i + 2]);
+    if (gradient) out.insert(out.end(), {1, 2, 3});
+  }
+  result.Clear();
+  fill(out.data(), out.size() * sizeof(float), v1::Tensor::FLOAT32, {xyz.size() / 3, gradient ? 4u : 1u}, result);
+}
+
+}  // namespace
+
+class FakeServer::Scenes : public v1::SceneService::Service {
+ public:
+  explicit Scenes(FakeServer& owner) : owner_(owner) {}
+
+  grpc::Status PutScene(grpc::ServerContext*, const v1::PutSceneRequest* request,
+                        v1::PutSceneResponse* response) override {
+    ++owner_.writes;
+    if (owner_.unavailable_for > 0) {
+      --owner_.unavailable_for;
+      return grpc::Status(grpc::StatusCode::UNAVAILABLE, "shutting down");
+    }
+    if (request->scene().nodes_size() == 0) {
+      return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "scene: no nodes; expected at least 1");
+    }
+    const std::lock_guard lock(owner_.mutex_);
+    auto& stored = owner_.catalog_[request->name()];
+    *stored.mutable_scene() = request->scene();
+    stored.mutable_summary()->set_name(request->name());
+    stored.mutable_summary()->set_version(++owner_.version_);
+    stored.mutable_summary()->set_nodes(static_cast<std::uint64_t>(request->scene().nodes_size()));
+    *response->mutable_summary() = stored.summary();
+    return grpc::Status::OK;
+  }
+
+  grpc::Status GetScene(grpc::ServerContext*, const v1::GetSceneRequest* request,
+                        v1::GetSceneResponse* response) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    const std::lock_guard lock(owner_.mutex_);
+    const auto found = owner_.catalog_.find(request->name());
+    if (found == owner_.catalog_.end()) return not_found(request->name());
+    *response = found->second;
+    return grpc::Status::OK;
+  }
+
+  grpc::Status ListScenes(grpc::ServerContext*, const v1::ListScenesRequest*,
+                          v1::ListScenesResponse* response) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    const std::lock_guard lock(owner_.mutex_);
+    for (const auto& [name, stored] : owner_.catalog_) *response->add_scenes() = stored.summary();
+    return grpc::Status::OK;
+  }
+
+  grpc::Status DeleteScene(grpc::ServerContext*, const v1::DeleteSceneRequest* request,
+                           v1::DeleteSceneResponse*) override {
+    const std::lock_guard lock(owner_.mutex_);
+    return owner_.catalog_.erase(request->name()) ? grpc::Status::OK : not_found(request->name());
+  }
+
+  grpc::Status EditParameters(grpc::ServerContext*, const v1::EditParametersRequest* request,
+                              v1::EditParametersResponse* response) override {
+    const std::lock_guard lock(owner_.mutex_);
+    const auto found = owner_.catalog_.find(request->name());
+    if (found == owner_.catalog_.end()) return not_found(request->name());
+    if (request->edits_size() != 1 || request->edits(0).node() != "ball" || request->edits(0).field() != "center" ||
+        request->edits(0).values_size() != 3) {
+      return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "expected one edit of ball.center");
+    }
+    found->second.mutable_summary()->set_version(++owner_.version_);
+    *response->mutable_summary() = found->second.summary();
+    return grpc::Status::OK;
+  }
+
+ private:
+  FakeServer& owner_;
+};
+
+class FakeServer::Fields : public v1::FieldService::Service {
+ public:
+  explicit Fields(FakeServer& owner) : owner_(owner) {}
+
+  grpc::Status Evaluate(grpc::ServerContext*, const v1::EvaluateRequest* request,
+                        v1::EvaluateResponse* response) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    if (auto status = owner_.find(request->scene()); !status.ok()) return status;
+    evaluate(request->points(), request->quantity() == v1::VALUE_AND_GRADIENT, *response->mutable_result());
+    if (owner_.short_answer) response->mutable_result()->mutable_data()->pop_back();
+    return grpc::Status::OK;
+  }
+
+  grpc::Status EvaluateStream(
+      grpc::ServerContext*,
+      grpc::ServerReaderWriter<v1::EvaluateResponse, v1::EvaluateStreamRequest>* stream) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    v1::EvaluateStreamRequest request;
+    v1::EvaluateResponse response;
+    bool gradient = false;
+    for (int message = 0; stream->Read(&request); ++message) {
+      ++owner_.stream_messages;
+      if (message == 0) {
+        if (auto status = owner_.find(request.scene()); !status.ok()) return status;
+        gradient = request.quantity() == v1::VALUE_AND_GRADIENT;
+      } else if (request.has_scene()) {
+        return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "scene: first message only");
+      }
+      if (message == owner_.fail_stream_after) return grpc::Status(grpc::StatusCode::RESOURCE_EXHAUSTED, "too much");
+      if (!request.has_points()) continue;
+      owner_.largest_chunk = std::max<std::size_t>(owner_.largest_chunk, request.points().shape(0));
+      evaluate(request.points(), gradient, *response.mutable_result());
+      stream->Write(response);
+    }
+    return grpc::Status::OK;
+  }
+
+  grpc::Status EvaluateGrid(grpc::ServerContext*, const v1::EvaluateGridRequest* request,
+                            grpc::ServerWriter<v1::EvaluateGridResponse>* writer) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    // A slab a layer.
+    for (std::uint64_t k = 0; k < request->counts(2); ++k) {
+      std::vector<float> layer;
+      for (std::uint64_t j = 0; j < request->counts(1); ++j) {
+        for (std::uint64_t i = 0; i < request->counts(0); ++i) {
+          layer.push_back(static_cast<float>(request->origin(0) + request->spacing(0) * static_cast<double>(i) +
+                                             2 * (request->origin(1) + request->spacing(1) * static_cast<double>(j)) +
+                                             3 * (request->origin(2) + request->spacing(2) * static_cast<double>(k))));
+        }
+      }
+      v1::EvaluateGridResponse response;
+      response.set_first_layer(k);
+      fill(layer.data(), layer.size() * sizeof(float), v1::Tensor::FLOAT32,
+           {1, request->counts(1), request->counts(0), 1}, *response.mutable_result());
+      writer->Write(response);
+    }
+    return grpc::Status::OK;
+  }
+
+ private:
+  FakeServer& owner_;
+};
+
+class FakeServer::Meshes : public v1::MeshService::Service {
+ public:
+  explicit Meshes(FakeServer& owner) : owner_(owner) {}
+
+  grpc::Status Mesh(grpc::ServerContext* context, const v1::MeshRequest* request,
+                    grpc::ServerWriter<v1::MeshResponse>* writer) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    if (auto status = owner_.find(request->scene()); !status.ok()) return status;
+    v1::MeshResponse response;
+    for (int step = 0; step < 4 || owner_.endless_mesh; ++step) {
+      response.mutable_progress()->set_fraction(std::min(0.9, 0.25 * step));
+      writer->Write(response);
+      if (context->IsCancelled()) {
+        owner_.mesh_cancelled = true;
+        return grpc::Status(grpc::StatusCode::CANCELLED, "cancelled");
+      }
+      if (owner_.endless_mesh) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    const auto mesh = torus_mesh(64, 32, 1.0f, 0.4f);
+    *response.mutable_summary() = mesh.summary;
+    if (owner_.wrong_summary) response.mutable_summary()->set_vertices(mesh.vertex_count() + 1);
+    writer->Write(response);
+    // Parts: halves of the vertices, then all triangles.
+    const std::size_t half = mesh.positions.size() / 2;
+    for (const std::size_t start : {std::size_t{0}, half}) {
+      auto* part = response.mutable_part();
+      part->Clear();
+      fill(&mesh.positions[start], half * sizeof(float), v1::Tensor::FLOAT32, {half / 3, 3},
+           *part->mutable_positions());
+      if (!request->omit_normals()) {
+        fill(&mesh.normals[start], half * sizeof(float), v1::Tensor::FLOAT32, {half / 3, 3}, *part->mutable_normals());
+      }
+      writer->Write(response);
+    }
+    auto* part = response.mutable_part();
+    part->Clear();
+    fill(mesh.triangles.data(), mesh.triangles.size() * 4, v1::Tensor::UINT32, {mesh.triangle_count(), 3},
+         *part->mutable_triangles());
+    writer->Write(response);
+    return grpc::Status::OK;
+  }
+
+ private:
+  FakeServer& owner_;
+};
+
+class FakeServer::Infos : public v1::InfoService::Service {
+ public:
+  explicit Infos(FakeServer& owner) : owner_(owner) {}
+
+  grpc::Status GetInfo(grpc::ServerContext*, const v1::GetInfoRequest*, v1::GetInfoResponse* response) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    response->set_version("0.0.0-fake");
+    return grpc::Status::OK;
+  }
+
+ private:
+  FakeServer& owner_;
+};
+
+grpc::Status FakeServer::admit_read() {
+  ++reads;
+  if (unavailable_for > 0) {
+    --unavailable_for;
+    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "shutting down");
+  }
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeServer::find(const v1::SceneRef& reference) {
+  if (reference.has_inline_()) return grpc::Status::OK;
+  const std::lock_guard lock(mutex_);
+  return catalog_.count(reference.name()) ? grpc::Status::OK : not_found(reference.name());
+}
+
+FakeServer::FakeServer(const std::string& address)
+    : scenes_(std::make_unique<Scenes>(*this)),
+      fields_(std::make_unique<Fields>(*this)),
+      meshes_(std::make_unique<Meshes>(*this)),
+      infos_(std::make_unique<Infos>(*this)) {
+  grpc::ServerBuilder builder;
+  builder.AddListeningPort(address, grpc::InsecureServerCredentials());
+  builder.RegisterService(scenes_.get());
+  builder.RegisterService(fields_.get());
+  builder.RegisterService(meshes_.get());
+  builder.RegisterService(infos_.get());
+  builder.SetMaxReceiveMessageSize(64 << 20);
+  server_ = builder.BuildAndStart();
+}
+
+FakeServer::~FakeServer() {
+  server_->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(1));
+}
+
+}  // namespace isofield

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <grpcpp/server.h>
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "isofield/v1/field_service.grpc.pb.h"
+#include "isofield/v1/info_service.grpc.pb.h"
+#include "isofield/v1/mesh_service.grpc.pb.h"
+#include "isofield/v1/scene_service.grpc.pb.h"
+
+namespace isofield {
+
+// The contract, answered by one field: f(p) = x + 2y + 3z with gradient (1, 2, 3), whatever the scene. Its mesh is a
+// torus. A scene reference by name must be in the catalog.
+class FakeServer {
+ public:
+  // "unix:PATH" or "HOST:PORT".
+  explicit FakeServer(const std::string& address);
+  ~FakeServer();
+
+  // How requests shall fail, and what was seen of them.
+  std::atomic<int> unavailable_for = 0;  // so many reads are answered by UNAVAILABLE
+  std::atomic<int> reads = 0;
+  std::atomic<int> writes = 0;
+  std::atomic<int> stream_messages = 0;
+  std::atomic<std::size_t> largest_chunk = 0;  // points
+  std::atomic<int> fail_stream_after = -1;     // chunks
+  std::atomic<bool> short_answer = false;
+  std::atomic<bool> endless_mesh = false;
+  std::atomic<bool> mesh_cancelled = false;
+  std::atomic<bool> wrong_summary = false;
+
+ private:
+  class Scenes;
+  class Fields;
+  class Meshes;
+  class Infos;
+
+  grpc::Status admit_read();
+  grpc::Status find(const v1::SceneRef& reference);
+
+  std::mutex mutex_;
+  std::map<std::string, v1::GetSceneResponse> catalog_;
+  std::uint64_t version_ = 0;
+  std::unique_ptr<v1::SceneService::Service> scenes_;
+  std::unique_ptr<v1::FieldService::Service> fields_;
+  std::unique_ptr<v1::MeshService::Service> meshes_;
+  std::unique_ptr<v1::InfoService::Service> infos_;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace isofield
