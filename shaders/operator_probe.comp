@@ -12,18 +12,19 @@ layout(std430, binding = 5) writeonly buffer Results { vec4 results[]; };     //
 
 layout(push_constant) uniform Constants {
   uint count;
-  uint table;       // of the silhouette, or of the opening
-  uint is_opening;
+  uint what;  // 0: the blend with a table at 0; 1: with the smooth silhouette; 2: an opening with a table at 0
 };
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= count) return;
   vec4 a = arguments[i];
-  if (is_opening != 0u) {
-    results[i] = vec4(opening_tangent(table, a.x), 0.0);
+  if (what == 2u) {
+    results[i] = vec4(opening_tangent(0u, a.x), 0.0);
   } else {
-    Blend b = gradient_blend(a.x, a.y, a.z, table);
+    Blend b;
+    if (what == 1u) b = gradient_blend(a.x, a.y, a.z, SMOOTH_SILHOUETTE);
+    else b = gradient_blend(a.x, a.y, a.z, 0u);
     results[i] = vec4(b.g, b.g1, b.g2, b.gt);
   }
 }

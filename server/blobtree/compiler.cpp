@@ -11,8 +11,8 @@
 namespace isofield::blobtree {
 namespace {
 
-Operator operator_of(NodeKind kind) {
-  switch (kind) {
+Operator operator_of(const Node& node) {
+  switch (node.kind) {
     case NodeKind::kSum:
       return Operator::kSum;
     case NodeKind::kMax:
@@ -24,7 +24,8 @@ Operator operator_of(NodeKind kind) {
     case NodeKind::kRicci:
       return Operator::kRicci;
     default:
-      return Operator::kGradient;
+      return node.silhouette.kind == operators::Silhouette::Kind::kSmooth ? Operator::kGradient
+                                                                          : Operator::kGradientTable;
   }
 }
 
@@ -98,12 +99,12 @@ class Compiler {
     if (n.children.size() >= 2) {
       frame.operation = static_cast<std::uint32_t>(tape_.operations.size());
       Operation& o = tape_.operations.emplace_back();
-      o.op = operator_of(n.kind);
+      o.op = operator_of(n);
       o.exponent = n.exponent;
       o.opening = n.opening;
       o.silhouette = n.silhouette;
       o.record = frame.operation;
-      if (o.op == Operator::kGradient) o.silhouette_bound = bound_of(n.silhouette);
+      if (n.kind == NodeKind::kGradient) o.silhouette_bound = bound_of(n.silhouette);
     }
     if (n.kind == NodeKind::kTransform) {
       maps_.push_back(maps_[to_world].after(n.frame));
@@ -140,7 +141,7 @@ class Compiler {
       } else if (i == 0) {
         open(child, top.to_world, Operator::kPush, 0);
       } else {
-        const Operator op = operator_of(node.kind);
+        const Operator op = operator_of(node);
         open(child, top.to_world, i == 1 && top.second_first ? exchanged(op) : op, top.operation);
       }
     }

@@ -87,7 +87,7 @@ void write_leaf(const Leaf& leaf, Float4* out) {
 // Offsets of tables that several operations share.
 class Tables {
  public:
-  explicit Tables(std::vector<Float4>& out) : out_(out) { append(operators::phi_table()); }
+  explicit Tables(std::vector<Float4>& out) : out_(out) {}
 
   std::uint32_t silhouette(const operators::Silhouette& s) {
     return find(silhouettes_, s, [&] { return operators::silhouette_table(s); });
@@ -126,11 +126,13 @@ ParameterBuffers lay_out(const Tape& tape) {
     Float4& record = buffers.operations[o.record];
     if (o.op == Operator::kRicci) {
       record = {f(o.exponent), f(1 / o.exponent), 0, 0};
-    } else if (o.op == Operator::kGradient) {
-      record = {std::bit_cast<float>(tables.opening(o.opening)), std::bit_cast<float>(tables.silhouette(o.silhouette)),
+    } else if (o.op == Operator::kGradient || o.op == Operator::kGradientTable) {
+      const std::uint32_t silhouette = o.op == Operator::kGradient ? 0 : tables.silhouette(o.silhouette);
+      record = {std::bit_cast<float>(tables.opening(o.opening)), std::bit_cast<float>(silhouette),
                 f(std::tan(o.opening.theta_min())), f(o.length)};
     }
   }
+  if (buffers.tables.empty()) buffers.tables.resize(1);
   return buffers;
 }
 

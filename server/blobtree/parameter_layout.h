@@ -16,7 +16,7 @@ using Float4 = std::array<float, 4>;
 struct ParameterBuffers {
   std::vector<Float4> leaves;      // records of leaf_record_size vec4s
   std::vector<Float4> operations;  // one vec4 an operation
-  std::vector<Float4> tables;      // cubic cells: phi first, then silhouettes and openings
+  std::vector<Float4> tables;      // cubic cells of silhouettes and openings
 };
 
 // Never empty buffers: a device binding needs a byte to bind to.

@@ -43,6 +43,7 @@ Interval combine(Operator op, const Operation& o, const Interval& a, const Inter
     case Operator::kRicci:
       return {ricci(a.lo, b.lo, o.exponent), ricci(a.hi, b.hi, o.exponent) + kValueRoom};
     case Operator::kGradient:
+    case Operator::kGradientTable:
       // Between the maximum and the blend at theta = 0, whatever the angle.
       return {std::max(a.lo, b.lo),
               std::max(a.hi, b.hi) + o.silhouette_bound * std::min(a.hi, b.hi) + kValueRoom};

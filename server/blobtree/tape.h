@@ -35,7 +35,8 @@ enum class Operator : std::uint32_t {
   kSubtract = 4,      // acc = max(0, min(acc, 1 - operand))
   kSubtractFrom = 5,  // acc = max(0, min(operand, 1 - acc))
   kRicci = 6,
-  kGradient = 7,
+  kGradient = 7,       // smooth silhouette: its profile is a polynomial
+  kGradientTable = 8,  // any other: from a table
 };
 
 // As the device reads it: 16 bytes.

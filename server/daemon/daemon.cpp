@@ -2,6 +2,7 @@
 
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
+#include <grpc/grpc.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -60,6 +61,9 @@ sigset_t stop_signals() {
 absl::StatusOr<std::unique_ptr<grpc::Server>> start_server(const Config& config,
                                                            const std::vector<grpc::Service*>& services) {
   ISOFIELD_RETURN_IF_ERROR(check_unix_socket_free(config.listen));
+  // Held until the process ends: the last one to let go of gRPC waits for its pollers, which sleep for 10 s each where a
+  // client was slow to read.
+  grpc_init();
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;

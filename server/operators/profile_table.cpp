@@ -26,8 +26,6 @@ ProfileTable tabulate(int cells, double range, const std::function<Curve(double)
 
 }  // namespace
 
-ProfileTable phi_table() { return tabulate(kPhiCells, 2, phi); }
-
 ProfileTable silhouette_table(const Silhouette& silhouette) {
   return tabulate(kSilhouetteCells, 1, [&](double u) { return silhouette.profile(u); });
 }

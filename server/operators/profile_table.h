@@ -17,11 +17,9 @@ using CubicCell = std::array<float, 4>;
 using ProfileTable = std::vector<CubicCell>;
 
 // Numbers of cells. Measured maximal errors of the device's g against exact arithmetic are in tests/gpu.
-inline constexpr int kPhiCells = 128;         // x within [0, 2]
 inline constexpr int kSilhouetteCells = 256;  // u within [0, 1]
 inline constexpr int kOpeningCells = 256;     // alpha within [0, pi]
 
-ProfileTable phi_table();
 ProfileTable silhouette_table(const Silhouette& silhouette);
 // tan(theta(alpha)): the operator needs nothing else of theta.
 ProfileTable opening_table(const Opening& opening);

@@ -47,6 +47,7 @@ struct Blend {
 #endif
 };
 
+// `silhouette`: where its table starts, or SMOOTH_SILHOUETTE.
 Blend gradient_blend(float f1, float f2, float t, uint silhouette) {
   float hi = max(f1, f2), lo = min(f1, f2);
   // Where lo <= k the profile is at u = 0, M = hi - k exactly and C stays hi: the maximum, to the bit.
@@ -80,7 +81,7 @@ Blend gradient_blend(float f1, float f2, float t, uint silhouette) {
   vec3 hi_v = vec3(1.0, 0.0, 0.0) - k_v;
   vec3 lo_v = vec3(0.0, 1.0, 0.0) - k_v;
   vec3 u_v = (lo_v - u * hi_v) / a;
-  vec3 m_lo_v = (u > 0.0 ? q.z : 0.0) * u_v;
+  vec3 m_lo_v = q.z * u_v;
   vec3 m_hi_v = -u * m_lo_v;
   vec3 slope_v = -kf_v * rest + k.k_f * (m_hi_v + m_lo_v);
   vec3 g_hi_v = (m_hi_v - g_hi * slope_v) * inverse;

@@ -49,7 +49,10 @@ Field evaluate(vec3 point, uint begin, uint count) {
       if (is_operator(op, OPERATOR_SUBTRACT)) r = subtract(acc, v);
       if (is_operator(op, OPERATOR_SUBTRACT_FROM)) r = subtract(v, acc);
       if (is_operator(op, OPERATOR_RICCI)) r = ricci(acc, v, operations[i.z].xy);
-      if (is_operator(op, OPERATOR_GRADIENT)) r = blend_by_gradient(acc, v, operations[i.z]);
+      if (is_operator(op, OPERATOR_GRADIENT)) r = blend_by_gradient(acc, v, operations[i.z], SMOOTH_SILHOUETTE);
+      if (is_operator(op, OPERATOR_GRADIENT_TABLE)) {
+        r = blend_by_gradient(acc, v, operations[i.z], floatBitsToUint(operations[i.z].y));
+      }
     }
     acc = r;
   }

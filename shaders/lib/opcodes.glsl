@@ -20,6 +20,7 @@ const uint OPERATOR_SUBTRACT = 4u;
 const uint OPERATOR_SUBTRACT_FROM = 5u;
 const uint OPERATOR_RICCI = 6u;
 const uint OPERATOR_GRADIENT = 7u;
+const uint OPERATOR_GRADIENT_TABLE = 8u;
 
 // A kernel is specialised to the opcodes of the tapes it runs: on lavapipe every branch of a shader costs, taken or not,
 // and only code that is dead at pipeline creation costs nothing.
@@ -43,6 +44,6 @@ bool is_operator(uint op, uint candidate) {
 }
 
 // Gradient blends steer by their operands' directions; a tape without them need not carry any.
-bool is_steered() { return has_operator(OPERATOR_GRADIENT); }
+bool is_steered() { return has_operator(OPERATOR_GRADIENT) || has_operator(OPERATOR_GRADIENT_TABLE); }
 
 #endif

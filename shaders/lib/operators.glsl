@@ -91,9 +91,8 @@ vec2 gradient_presence(float n) {
 }
 
 // [G] eqs. 15 to 24, steered by the angle between the operands' directions; the gradient is the whole of eq. 29.
-Field blend_by_gradient(Field a, Field b, vec4 operation) {
+Field blend_by_gradient(Field a, Field b, vec4 operation, uint silhouette) {
   uint opening = floatBitsToUint(operation.x);
-  uint silhouette = floatBitsToUint(operation.y);
   float t_min = operation.z;
   float h = operation.w;
   vec3 d1 = a.d * h, d2 = b.d * h;

@@ -1,13 +1,13 @@
-// Piecewise cubic functions of one variable: server/operators/profile_table.h. Looked up in float32 (hardware filters
-// have weights of 8 bits).
+// The functions of one variable that blends are made of: polynomials (server/operators/polynomial.h) where they are
+// fixed, piecewise cubics (server/operators/profile_table.h) where a scene chooses them, looked up in float32 (hardware
+// filters have weights of 8 bits).
 #ifndef PROFILES_GLSL
 #define PROFILES_GLSL
 
 #include "parameters.glsl"
+#include "profile_polynomials.glsl"  // written at build time
 
-// Mirrors server/operators/profile_table.h and the order of server/blobtree/parameter_layout.cpp.
-const uint PHI_TABLE = 0u;
-const int PHI_CELLS = 128;
+// Mirrors server/operators/profile_table.h.
 const int SILHOUETTE_CELLS = 256;
 const int OPENING_CELLS = 256;
 
@@ -22,12 +22,26 @@ vec3 profile(uint table, int cells, float per_unit, float x) {
   return vec3(value, slope * per_unit, (2.0 * c.z + 6.0 * s * c.w) * per_unit * per_unit);
 }
 
-// phi of [G] eq. 20, x within [0, 2].
-vec3 phi(float x) { return profile(PHI_TABLE, PHI_CELLS, float(PHI_CELLS) / 2.0, x); }
+// phi of [G] eq. 20, x within [0, 2], with derivatives. Its lower half mirrors the upper: phi(x) = phi(2 - x) - 1 + x.
+vec3 phi(float x) {
+  float at = clamp(x, 0.0, 2.0);
+  bool is_lower = at < 1.0;
+  vec3 p = phi_upper(2.0 * (is_lower ? 2.0 - at : at) - 3.0);
+  return vec3(is_lower ? p.x - 1.0 + at : p.x, is_lower ? 1.0 - 2.0 * p.y : 2.0 * p.y, 4.0 * p.z);
+}
 
-// The silhouette's profile q(u), u within [0, 1].
+// In place of a table: the smooth silhouette, by its polynomial.
+const uint SMOOTH_SILHOUETTE = 0xffffffffu;
+
+// The silhouette's profile q(u), u within [0, 1], with derivatives. Exactly (1, 0, 0) at 0.
 vec3 silhouette_profile(uint table, float u) {
-  return profile(table, SILHOUETTE_CELLS, float(SILHOUETTE_CELLS), u);
+  vec3 q;
+  if (table == SMOOTH_SILHOUETTE) {
+    q = smooth_profile(2.0 * u - 1.0) * vec3(1.0, 2.0, 4.0);
+  } else {
+    q = profile(table, SILHOUETTE_CELLS, float(SILHOUETTE_CELLS), u);
+  }
+  return u > 0.0 ? q : vec3(1.0, 0.0, 0.0);
 }
 
 // tan(theta) of an opening function at alpha within [0, pi].

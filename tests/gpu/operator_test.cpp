@@ -18,22 +18,19 @@ namespace {
 using Float4 = std::array<float, 4>;
 using operators::Silhouette;
 
-enum class Probe : std::uint32_t { kBlend = 0, kOpening = 1 };
+enum class Probe : std::uint32_t { kTableBlend = 0, kSmoothBlend = 1, kOpening = 2 };
 
-// Runs shaders/operator_probe.comp with the phi table and one other.
+// Runs shaders/operator_probe.comp.
 std::vector<Float4> probe(const std::vector<Float4>& arguments, const operators::ProfileTable& table, Probe kind) {
-  operators::ProfileTable tables = operators::phi_table();
-  const auto offset = static_cast<std::uint32_t>(tables.size());
-  tables.insert(tables.end(), table.begin(), table.end());
   std::vector<Float4> results(arguments.size());
   auto session = engine::Session::begin(device());
   EXPECT_TRUE(session.ok());
-  const auto table_buffer = session->upload(std::span(tables));
+  const auto table_buffer = session->upload(std::span(table));
   const auto argument_buffer = session->upload(std::span(arguments));
   const auto result_buffer = session->scratch(sizeof(Float4) * arguments.size());
   const auto kernel = kernels().get(shaders::kOperatorProbe);
   EXPECT_TRUE(kernel.ok()) << kernel.status();
-  const std::array<std::uint32_t, 3> constants{static_cast<std::uint32_t>(arguments.size()), offset,
+  const std::array<std::uint32_t, 2> constants{static_cast<std::uint32_t>(arguments.size()),
                                                static_cast<std::uint32_t>(kind)};
   EXPECT_TRUE(session->commands()
                   .dispatch(**kernel, {{2, &*table_buffer}, {4, &*argument_buffer}, {5, &*result_buffer}}, constants,
@@ -44,6 +41,12 @@ std::vector<Float4> probe(const std::vector<Float4>& arguments, const operators:
   return results;
 }
 
+// By the polynomial where the silhouette is smooth, else by its table.
+std::vector<Float4> probe_blend(const std::vector<Float4>& arguments, const Silhouette& silhouette) {
+  return probe(arguments, operators::silhouette_table(silhouette),
+               silhouette.kind == Silhouette::Kind::kSmooth ? Probe::kSmoothBlend : Probe::kTableBlend);
+}
+
 void expect_golden_blend(const std::string& file, const Silhouette& silhouette, double tolerance) {
   ISOFIELD_NEEDS_SHARED("golden/" + file);
   const auto table = test_support::read_csv(test_support::shared_file("golden/" + file));
@@ -52,7 +55,7 @@ void expect_golden_blend(const std::string& file, const Silhouette& silhouette, 
   for (const auto& row : table->rows) {
     arguments.push_back({static_cast<float>(row[0]), static_cast<float>(row[1]), static_cast<float>(std::tan(row[2]))});
   }
-  const std::vector<Float4> results = probe(arguments, operators::silhouette_table(silhouette), Probe::kBlend);
+  const std::vector<Float4> results = probe_blend(arguments, silhouette);
   double worst = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {
     worst = std::max(worst, std::abs(results[i][0] - table->rows[i][3]));
@@ -97,7 +100,7 @@ TEST(OperatorOnDevice, LeavesAFieldAloneWhereTheOtherIsZero) {
     arguments.push_back(i % 2 ? Float4{f, 0, t} : Float4{0, f, t});
   }
   for (const Silhouette& s : {Silhouette{}, Silhouette{Silhouette::Kind::kBulge, 0.8}}) {
-    const std::vector<Float4> results = probe(arguments, operators::silhouette_table(s), Probe::kBlend);
+    const std::vector<Float4> results = probe_blend(arguments, s);
     for (std::size_t i = 0; i < results.size(); ++i) {
       const float f = std::max(arguments[i][0], arguments[i][1]);
       ASSERT_EQ(results[i][0], f) << "g(" << arguments[i][0] << ", " << arguments[i][1] << ", t = " << arguments[i][2]
@@ -116,7 +119,7 @@ TEST(OperatorOnDevice, AgreesWithExactArithmeticOnRandomInput) {
   }
   const std::pair<Silhouette, double> silhouettes[] = {{{}, 2e-6}, {{Silhouette::Kind::kBulge, 0.8}, 2e-5}};
   for (const auto& [silhouette, tolerance] : silhouettes) {
-    const std::vector<Float4> results = probe(arguments, operators::silhouette_table(silhouette), Probe::kBlend);
+    const std::vector<Float4> results = probe_blend(arguments, silhouette);
     double worst = 0, worst_partial = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
       const Float4& a = arguments[i];

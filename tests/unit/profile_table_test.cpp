@@ -37,12 +37,6 @@ Errors errors_of(const std::string& name, const ProfileTable& table, double rang
   return worst;
 }
 
-TEST(ProfileTable, PhiIsClose) {
-  const Errors e = errors_of("phi", phi_table(), 2, phi);
-  EXPECT_LT(e.value, 4e-7);  // phi starts at E(0) = 2.6e-7
-  EXPECT_LT(e.slope, 2e-4);
-}
-
 TEST(ProfileTable, SmoothSilhouetteIsClose) {
   const Silhouette s;
   const Errors e = errors_of("smooth", silhouette_table(s), 1, [&](double u) { return s.profile(u); });
@@ -106,7 +100,7 @@ TEST(ProfileTable, TheSteepestOpeningsStayWithinTheirParameters) {
 }
 
 TEST(ProfileTable, CellsMeetWithValueAndSlope) {
-  for (const ProfileTable& table : {phi_table(), silhouette_table({}), opening_table(organic())}) {
+  for (const ProfileTable& table : {silhouette_table({}), opening_table(organic())}) {
     for (std::size_t i = 0; i + 1 < table.size(); ++i) {
       const auto& c = table[i];
       EXPECT_NEAR(c[0] + c[1] + c[2] + c[3], table[i + 1][0], 3e-7);
