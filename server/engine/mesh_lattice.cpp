@@ -122,7 +122,7 @@ absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const Mes
   constexpr std::uint64_t kBricks =
       kAutomaticCells / (blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells);
   if (tape.support.empty()) return 1.0;
-  double cell = longest_edge(request.bounds.value_or(tape.support)) / 128;
+  double cell = longest_edge(request.bounds.value_or(tape.support)) / kAutomaticCellsAlong;
   for (const blobtree::Leaf& leaf : tape.leaves) cell = std::min(cell, thinness(leaf));
   for (;; cell *= 1.25) {
     const auto bricks = count_bricks(tape, request, cell, kBricks, {});

@@ -15,8 +15,9 @@ inline constexpr std::uint32_t kMaxCellsPerAxis = 1u << 22;
 // the lattice at their corner.
 absl::StatusOr<blobtree::Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request);
 
-// A cell size for a request that states none: the thinnest primitive two cells across and the longest edge at least 128,
-// as far as kAutomaticCells cells go.
+// A cell size for a request that states none: the thinnest primitive two cells across and the longest edge at least
+// kAutomaticCellsAlong, as far as kAutomaticCells cells go.
+inline constexpr double kAutomaticCellsAlong = 200;
 inline constexpr std::uint64_t kAutomaticCells = 1u << 22;
 absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const MeshRequest& request);
 
