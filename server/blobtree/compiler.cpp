@@ -30,7 +30,9 @@ Operator operator_of(const Node& node) {
 }
 
 // The same operator with its operands exchanged.
-Operator exchanged(Operator op) { return op == Operator::kSubtract ? Operator::kSubtractFrom : op; }
+Operator exchanged(Operator op) {
+  return op == Operator::kSubtract ? Operator::kSubtractFrom : op;
+}
 
 class Compiler {
  public:
@@ -52,14 +54,14 @@ class Compiler {
   // One node on the way of being emitted.
   struct Frame {
     std::uint32_t node;
-    std::uint32_t to_world;      // in maps_
+    std::uint32_t to_world;  // in maps_
     std::uint32_t next_child = 0;
-    bool second_first = false;   // the second child is deeper: it goes first
-    std::uint32_t operation = 0; // operators of two or more children
+    bool second_first = false;    // the second child is deeper: it goes first
+    std::uint32_t operation = 0;  // operators of two or more children
     // How the node's value joins what is on the stack when it is complete.
     Operator join = Operator::kPush;
     std::uint32_t join_operation = 0;
-    double length = 0;           // largest range below
+    double length = 0;  // largest range below
     Box support;
   };
 
@@ -69,8 +71,8 @@ class Compiler {
     leaf_like_.assign(scene_.nodes.size(), 0);
     for (const std::uint32_t index : scene_.order) {
       const Node& node = scene_.nodes[index];
-      leaf_like_[index] = node.kind == NodeKind::kPrimitive ||
-                          (node.children.size() == 1 && leaf_like_[node.children[0]]);
+      leaf_like_[index] =
+          node.kind == NodeKind::kPrimitive || (node.children.size() == 1 && leaf_like_[node.children[0]]);
       std::uint32_t need = 0;
       for (std::size_t i = 0; i < node.children.size(); ++i) {
         const std::uint32_t child = ordered_child(node, i);
@@ -225,6 +227,8 @@ void Box::add(const Box& other) {
   max = {std::max(max.x, other.max.x), std::max(max.y, other.max.y), std::max(max.z, other.max.z)};
 }
 
-absl::StatusOr<Tape> compile(const Scene& scene) { return Compiler(scene).run(); }
+absl::StatusOr<Tape> compile(const Scene& scene) {
+  return Compiler(scene).run();
+}
 
 }  // namespace isofield::blobtree

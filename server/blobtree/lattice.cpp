@@ -9,7 +9,9 @@ namespace {
 
 constexpr std::size_t kNotStored = ~std::size_t{0};
 
-bool has_same_code(const Instruction& a, const Instruction& b) { return a.code == b.code && a.index == b.index; }
+bool has_same_code(const Instruction& a, const Instruction& b) {
+  return a.code == b.code && a.index == b.index;
+}
 
 class Culler {
  public:
@@ -83,8 +85,8 @@ class Culler {
     if (!is_kept(cell, range)) return;
     const std::size_t count = arena_.size() - begin;
     // Nothing dropped out: go on with the parent's, which may be in the result already.
-    const bool same = count == parent.count && std::equal(arena_.begin() + begin, arena_.end(),
-                                                          arena_.begin() + parent.begin, has_same_code);
+    const bool same = count == parent.count &&
+                      std::equal(arena_.begin() + begin, arena_.end(), arena_.begin() + parent.begin, has_same_code);
     if (cell.level == 0) {
       if (same) {
         if (parent.stored == kNotStored) levels_[cell.parent].stored = store(parent.begin, parent.count);
@@ -133,6 +135,8 @@ class Culler {
 
 }  // namespace
 
-absl::StatusOr<BrickList> cull(const Tape& tape, const CullRequest& request) { return Culler(tape, request).run(); }
+absl::StatusOr<BrickList> cull(const Tape& tape, const CullRequest& request) {
+  return Culler(tape, request).run();
+}
 
 }  // namespace isofield::blobtree

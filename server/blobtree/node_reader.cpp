@@ -112,8 +112,7 @@ void read_opening(const v1::Opening& m, Node& node, FieldReader& in) {
   }
   const bool stated[] = {m.has_alpha0(), m.has_alpha1(), m.has_alpha2(), m.has_theta0(),
                          m.has_theta1(), m.has_theta2(), m.has_w0(),     m.has_w1()};
-  const double values[] = {m.alpha0(), m.alpha1(), m.alpha2(), m.theta0(),
-                           m.theta1(), m.theta2(), m.w0(),     m.w1()};
+  const double values[] = {m.alpha0(), m.alpha1(), m.alpha2(), m.theta0(), m.theta1(), m.theta2(), m.w0(), m.w1()};
   constexpr const char* kNames[] = {"opening.alpha0", "opening.alpha1", "opening.alpha2", "opening.theta0",
                                     "opening.theta1", "opening.theta2", "opening.w0",     "opening.w1"};
   double* const parameters[] = {&o.alpha0, &o.alpha1, &o.alpha2, &o.theta0, &o.theta1, &o.theta2, &o.w0, &o.w1};
@@ -184,7 +183,8 @@ void read_transform(const v1::Transform& m, Node& node, FieldReader& in) {
         in.refuse("rotation", "(0, 0, 0, ...)", "an axis of a length that is not 0");
       }
     }
-    node.frame = Affine::translation(in.point("translation", m.translation())).after(rotation).after(Affine::scale(scale));
+    node.frame =
+        Affine::translation(in.point("translation", m.translation())).after(rotation).after(Affine::scale(scale));
   }
   if (!in.status().ok()) return;
   const Affine::Stretch stretch = node.frame.stretch();

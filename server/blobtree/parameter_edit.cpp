@@ -42,8 +42,10 @@ std::string numeric_fields(const Message& message) {
 // The element that ".1" or ".y" names; -1: none.
 int element_of(const std::string& name, int size) {
   int index = -1;
-  if (size == 3 && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') index = name[0] - 'x';
-  else if (!absl::SimpleAtoi(name, &index)) return -1;
+  if (size == 3 && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z')
+    index = name[0] - 'x';
+  else if (!absl::SimpleAtoi(name, &index))
+    return -1;
   return index < size ? index : -1;
 }
 

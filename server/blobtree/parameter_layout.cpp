@@ -10,7 +10,9 @@
 namespace isofield::blobtree {
 namespace {
 
-float f(double x) { return static_cast<float>(x); }
+float f(double x) {
+  return static_cast<float>(x);
+}
 
 void write_leaf(const Leaf& leaf, Float4* out) {
   const ShapeSize& s = leaf.size;

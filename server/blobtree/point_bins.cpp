@@ -69,8 +69,8 @@ class Binner {
     if (pruner_.prune(arena_, parent.begin, parent.count, box, arena_).hi <= 0) return;
     const std::size_t count = arena_.size() - begin;
     if (count <= kShortTape || range.count <= kSmallGroup || !(box.min != box.max)) {
-      bins_.groups.push_back({range.first, range.count, static_cast<std::uint32_t>(bins_.code.size()),
-                              static_cast<std::uint32_t>(count)});
+      bins_.groups.push_back(
+          {range.first, range.count, static_cast<std::uint32_t>(bins_.code.size()), static_cast<std::uint32_t>(count)});
       bins_.code.insert(bins_.code.end(), arena_.begin() + begin, arena_.end());
       return;
     }
@@ -81,7 +81,9 @@ class Binner {
   // Sorts the range into the eight octants of its box.
   void split(const Range& range, const Box& box) {
     const dvec3 c = (box.min + box.max) * 0.5;
-    const auto octant = [&](const float* p) { return (p[0] > c.x ? 1 : 0) | (p[1] > c.y ? 2 : 0) | (p[2] > c.z ? 4 : 0); };
+    const auto octant = [&](const float* p) {
+      return (p[0] > c.x ? 1 : 0) | (p[1] > c.y ? 2 : 0) | (p[2] > c.z ? 4 : 0);
+    };
     std::array<std::uint32_t, 9> starts{};
     for (std::uint32_t i = range.first; i < range.first + range.count; ++i) ++starts[octant(point(i)) + 1];
     for (int o = 0; o < 8; ++o) starts[o + 1] += starts[o];
@@ -109,6 +111,8 @@ class Binner {
 
 }  // namespace
 
-PointBins bin_points(const Tape& tape, std::span<const float> xyz) { return Binner(tape, xyz).run(); }
+PointBins bin_points(const Tape& tape, std::span<const float> xyz) {
+  return Binner(tape, xyz).run();
+}
 
 }  // namespace isofield::blobtree

@@ -11,7 +11,9 @@ namespace {
 constexpr double kValueRoom = 4e-6;
 constexpr double kLengthRoom = 1e-6;
 
-bool is_zero(const Interval& i) { return i.hi <= 0; }
+bool is_zero(const Interval& i) {
+  return i.hi <= 0;
+}
 
 Instruction with_operator(Instruction i, Operator op) {
   i.code = (i.code & 0xff) | static_cast<std::uint32_t>(op) << 8;
@@ -45,8 +47,7 @@ Interval combine(Operator op, const Operation& o, const Interval& a, const Inter
     case Operator::kGradient:
     case Operator::kGradientTable:
       // Between the maximum and the blend at theta = 0, whatever the angle.
-      return {std::max(a.lo, b.lo),
-              std::max(a.hi, b.hi) + o.silhouette_bound * std::min(a.hi, b.hi) + kValueRoom};
+      return {std::max(a.lo, b.lo), std::max(a.hi, b.hi) + o.silhouette_bound * std::min(a.hi, b.hi) + kValueRoom};
     default:
       return b;
   }

@@ -27,9 +27,9 @@ struct Node {
   // kPrimitive, kTransform
   Affine frame;
 
-  double exponent = 1;                // kRicci
-  operators::Opening opening{};       // kGradient
-  operators::Silhouette silhouette;   // kGradient
+  double exponent = 1;               // kRicci
+  operators::Opening opening{};      // kGradient
+  operators::Silhouette silhouette;  // kGradient
 };
 
 struct Scene {

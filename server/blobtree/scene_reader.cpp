@@ -151,8 +151,7 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
   const auto count = static_cast<std::size_t>(message.nodes_size());
   if (count == 0) return absl::InvalidArgumentError("nodes = []: expected at least 1 node");
   if (count > limits.max_nodes) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("nodes: ", count, " nodes, expected at most ", limits.max_nodes));
+    return absl::InvalidArgumentError(absl::StrCat("nodes: ", count, " nodes, expected at most ", limits.max_nodes));
   }
   Scene scene;
   scene.nodes.resize(count);
@@ -176,8 +175,8 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
   const std::optional<std::uint32_t> root =
       references.find(message.root().empty() ? absl::StrCat("#", count - 1) : message.root(), count);
   if (!root) {
-    return absl::InvalidArgumentError(absl::StrCat("root = '", message.root(),
-                                                   "' is no node: expected a node's name, or #0 to #", count - 1));
+    return absl::InvalidArgumentError(
+        absl::StrCat("root = '", message.root(), "' is no node: expected a node's name, or #0 to #", count - 1));
   }
   scene.root = *root;
   if (absl::Status s = sort_nodes(scene); !s.ok()) return s;

@@ -16,11 +16,11 @@ namespace isofield::blobtree {
 
 // What an instruction takes as its right operand. Mirrored in shaders/lib/opcodes.glsl.
 enum class Operand : std::uint32_t {
-  kPop = 0,      // the accumulator; what is popped off the stack takes its place as the left operand
-  kZero = 1,     // the constant 0: a right operand that was culled
-  kSphere = 2,   // leaves; rigidly placed unless said otherwise
+  kPop = 0,     // the accumulator; what is popped off the stack takes its place as the left operand
+  kZero = 1,    // the constant 0: a right operand that was culled
+  kSphere = 2,  // leaves; rigidly placed unless said otherwise
   kSegment = 3,
-  kBox = 4,      // any affine placement, as all below
+  kBox = 4,  // any affine placement, as all below
   kCylinder = 5,
   kTorus = 6,
   kEllipsoid = 7,  // a sphere under an affine map
@@ -28,8 +28,8 @@ enum class Operand : std::uint32_t {
 };
 // What it does with it. `acc` is the accumulator. Mirrored in shaders/lib/opcodes.glsl.
 enum class Operator : std::uint32_t {
-  kPush = 0,        // push acc, acc = operand
-  kSum = 1,         // acc = acc + operand
+  kPush = 0,  // push acc, acc = operand
+  kSum = 1,   // acc = acc + operand
   kMax = 2,
   kMin = 3,
   kSubtract = 4,      // acc = max(0, min(acc, 1 - operand))
@@ -41,10 +41,10 @@ enum class Operator : std::uint32_t {
 
 // As the device reads it: 16 bytes.
 struct Instruction {
-  std::uint32_t code;      // operand | operator << 8
-  std::uint32_t leaf;      // place of the leaf's record in the leaf buffer, in vec4
-  std::uint32_t operation; // place of the operator's record in the operator buffer, in vec4
-  std::uint32_t index;     // host only: the leaf in Tape::leaves (leaf operands)
+  std::uint32_t code;       // operand | operator << 8
+  std::uint32_t leaf;       // place of the leaf's record in the leaf buffer, in vec4
+  std::uint32_t operation;  // place of the operator's record in the operator buffer, in vec4
+  std::uint32_t index;      // host only: the leaf in Tape::leaves (leaf operands)
 
   Operand operand() const { return static_cast<Operand>(code & 0xff); }
   Operator op() const { return static_cast<Operator>(code >> 8); }
@@ -75,10 +75,10 @@ struct Leaf {
   Shape shape = Shape::kSphere;
   ShapeSize size{};
   double range = 0;
-  Affine to_local;         // linear part only
+  Affine to_local;  // linear part only
   dvec3 anchor;
-  double stretch = 1;      // most that to_local stretches: bounds the slope of the distance
-  Box support;             // holds every point where the field is not 0, with room for float32 rounding
+  double stretch = 1;        // most that to_local stretches: bounds the slope of the distance
+  Box support;               // holds every point where the field is not 0, with room for float32 rounding
   std::uint32_t record = 0;  // Instruction::leaf
   std::uint32_t node = 0;    // in Scene::nodes
 
@@ -102,12 +102,12 @@ struct Tape {
   std::vector<Instruction> code;
   std::vector<Leaf> leaves;
   std::vector<Operation> operations;
-  std::uint32_t leaf_records = 0;    // vec4s in the leaf buffer
-  std::uint32_t stack_depth = 0;     // values waiting beside the accumulator, at most
+  std::uint32_t leaf_records = 0;  // vec4s in the leaf buffer
+  std::uint32_t stack_depth = 0;   // values waiting beside the accumulator, at most
   // A bit per Operand and per Operator that the code, or what the pruner leaves of it, may hold.
   std::uint32_t operand_set = 0;
   std::uint32_t operator_set = 0;
-  Box support;                       // of the root; empty for a field that is 0 everywhere
+  Box support;  // of the root; empty for a field that is 0 everywhere
 };
 
 // Named registers of the interpreter beside the accumulator.

@@ -37,8 +37,7 @@ absl::StatusOr<Catalog::Put> Catalog::put(const std::string& name, v1::Scene sce
   const std::lock_guard lock(mutex_);
   const auto it = scenes_.find(name);
   if (condition.must_be_absent && it != scenes_.end()) {
-    return absl::AlreadyExistsError(
-        absl::StrCat("scene '", name, "' exists already, at version ", it->second.version));
+    return absl::AlreadyExistsError(absl::StrCat("scene '", name, "' exists already, at version ", it->second.version));
   }
   if (condition.version != 0) {
     if (it == scenes_.end()) return not_found(name);

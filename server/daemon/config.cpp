@@ -1,13 +1,33 @@
 #include "daemon/config.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
 
 namespace isofield::daemon {
+namespace {
+
+// What CLI11 parses, last argument first. It would let a file override the environment: that is stated as flags before
+// the real ones, which override it.
+std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> arguments;
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string& variable = option->get_envname();
+    const char* const value = variable.empty() ? nullptr : std::getenv(variable.c_str());
+    if (value && *value) arguments.push_back("--" + option->get_lnames().front() + "=" + value);
+  }
+  arguments.insert(arguments.end(), argv + std::min(argc, 1), argv + argc);
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
+
+}  // namespace
 
 ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   Config c;
   CLI::App app("isofieldd: keeps implicit surfaces on a GPU and answers fields and meshes over gRPC.", "isofieldd");
-  app.option_defaults()->always_capture_default();
+  app.option_defaults()->always_capture_default()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.set_version_flag("--version", "isofieldd " + version);
   app.set_config("--config", "", "Read options from a TOML or INI file");
   app.add_option("--listen", c.listen, "Address to serve: HOST:PORT (port 0: any free one) or unix:PATH")
@@ -42,7 +62,7 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
       ->envname("ISOFIELD_MAX_MESH_CELLS")
       ->check(CLI::Range(std::uint64_t{64}, std::uint64_t{1} << 30));
   try {
-    app.parse(argc, argv);
+    app.parse(arguments_of(app, argc, argv));
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return {std::nullopt, status == 0 ? 0 : 2};

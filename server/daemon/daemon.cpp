@@ -8,7 +8,6 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
-
 #include <unistd.h>
 
 #include <csignal>
@@ -60,9 +59,9 @@ sigset_t stop_signals() {
 
 absl::StatusOr<std::unique_ptr<grpc::Server>> start_server(const Config& config,
                                                            const std::vector<grpc::Service*>& services) {
-  ISOFIELD_RETURN_IF_ERROR(check_unix_socket_free(config.listen));
-  // Held until the process ends: the last one to let go of gRPC waits for its pollers, which sleep for 10 s each where a
-  // client was slow to read.
+  ISOFIELD_RETURN_IF_ERROR(check_listen_address(config.listen));
+  // Held until the process ends: the last one to let go of gRPC waits for its pollers, which sleep for 10 s each where
+  // a client was slow to read.
   grpc_init();
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();

@@ -7,7 +7,8 @@
 
 namespace isofield::daemon {
 
-// gRPC takes over a unix socket's path even from a process that serves on it. ALREADY_EXISTS when one does.
-absl::Status check_unix_socket_free(const std::string& address);
+// INVALID_ARGUMENT: neither HOST:PORT nor unix:PATH; gRPC would choose port 443 where none is stated, and another one
+// for a port beyond 65535. ALREADY_EXISTS: another process serves on the unix socket; gRPC would take its path over.
+absl::Status check_listen_address(const std::string& address);
 
 }  // namespace isofield::daemon

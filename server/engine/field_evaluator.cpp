@@ -68,10 +68,8 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
   for (std::size_t at = 0; at < jobs.size(); at += gpu::kMaxGroups) {
     const std::array<std::uint32_t, 2> constants{static_cast<std::uint32_t>(at), bins.order.empty() ? 0u : 1u};
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        *kernel,
-        {{0, &scene.leaves()}, {1, &scene.operations()}, {2, &scene.tables()}, {3, &code}, {4, &job_buffer},
-         {5, &order}, {6, &points}, {7, &results}},
-        constants, static_cast<std::uint32_t>(std::min<std::size_t>(jobs.size() - at, gpu::kMaxGroups))));
+        *kernel, scene.bindings(code, {{4, &job_buffer}, {5, &order}, {6, &points}, {7, &results}}), constants,
+        static_cast<std::uint32_t>(std::min<std::size_t>(jobs.size() - at, gpu::kMaxGroups))));
   }
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
   return session.run();
@@ -92,32 +90,28 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
     std::fill(out.begin(), out.end(), 0.0f);
     return absl::OkStatus();
   }
-  ISOFIELD_ASSIGN_OR_RETURN(
-      const gpu::Pipeline* kernel,
-      kernels_.get(quantity == Quantity::kValue ? shaders::kGridValue : shaders::kGridGradient,
-                   KernelKind::of(scene.tape())));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
+                            kernels_.get(quantity == Quantity::kValue ? shaders::kGridValue : shaders::kGridGradient,
+                                         KernelKind::of(scene.tape())));
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer code, session.upload(std::span(bricks.code)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer brick_buffer, session.upload(std::span(wanted)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.scratch(out.size_bytes()));
   session.commands().fill_zero(results);
   session.commands().barrier();
-  GridConstants constants{
-      {static_cast<float>(lattice.origin.x), static_cast<float>(lattice.origin.y),
-       static_cast<float>(lattice.origin.z)},
-      {static_cast<float>(lattice.spacing.x), static_cast<float>(lattice.spacing.y),
-       static_cast<float>(lattice.spacing.z)},
-      {lattice.cells[0], lattice.cells[1], lattice.cells[2]},
-      0,
-      first_layer,
-      layers};
+  GridConstants constants{{static_cast<float>(lattice.origin.x), static_cast<float>(lattice.origin.y),
+                           static_cast<float>(lattice.origin.z)},
+                          {static_cast<float>(lattice.spacing.x), static_cast<float>(lattice.spacing.y),
+                           static_cast<float>(lattice.spacing.z)},
+                          {lattice.cells[0], lattice.cells[1], lattice.cells[2]},
+                          0,
+                          first_layer,
+                          layers};
   for (std::size_t at = 0; at < wanted.size(); at += gpu::kMaxGroups) {
     constants.first_brick = static_cast<std::uint32_t>(at);
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        *kernel,
-        {{0, &scene.leaves()}, {1, &scene.operations()}, {2, &scene.tables()}, {3, &code}, {4, &brick_buffer},
-         {7, &results}},
-        constants, static_cast<std::uint32_t>(std::min<std::size_t>(wanted.size() - at, gpu::kMaxGroups))));
+        *kernel, scene.bindings(code, {{4, &brick_buffer}, {7, &results}}), constants,
+        static_cast<std::uint32_t>(std::min<std::size_t>(wanted.size() - at, gpu::kMaxGroups))));
   }
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
   return session.run();

@@ -13,7 +13,9 @@
 namespace isofield::engine {
 
 enum class Quantity { kValue, kValueAndGradient };
-inline std::size_t components(Quantity q) { return q == Quantity::kValue ? 1 : 4; }
+inline std::size_t components(Quantity q) {
+  return q == Quantity::kValue ? 1 : 4;
+}
 
 // Thread-safe.
 class FieldEvaluator {

@@ -6,8 +6,12 @@ namespace {
 using blobtree::Operand;
 using blobtree::Operator;
 
-std::uint32_t bit(Operand o) { return 1u << static_cast<std::uint32_t>(o); }
-std::uint32_t bit(Operator o) { return 1u << static_cast<std::uint32_t>(o); }
+std::uint32_t bit(Operand o) {
+  return 1u << static_cast<std::uint32_t>(o);
+}
+std::uint32_t bit(Operator o) {
+  return 1u << static_cast<std::uint32_t>(o);
+}
 
 // Few distinct depths, so that scenes share kernels.
 std::uint32_t round_depth(std::uint32_t depth) {
@@ -31,8 +35,8 @@ KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
 }
 
 absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
-  const Key key{reinterpret_cast<std::uintptr_t>(shader.data()), kind.operand_set, kind.operator_set,
-                kind.stack_depth, kind.tape_length};
+  const Key key{reinterpret_cast<std::uintptr_t>(shader.data()), kind.operand_set, kind.operator_set, kind.stack_depth,
+                kind.tape_length};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
   bool compiles = false;

@@ -94,12 +94,12 @@ double thinness(const blobtree::Leaf& leaf) {
 absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request) {
   const double cell = request.cell_size;
   const Box bounds = request.bounds.value_or(tape.support);
-  const double most = std::max({longest_edge(bounds) / cell,
-                                request.bounds ? 0.0 : std::abs(bounds.min.x) / cell / 1024});
+  const double most =
+      std::max({longest_edge(bounds) / cell, request.bounds ? 0.0 : std::abs(bounds.min.x) / cell / 1024});
   if (most > kMaxCellsPerAxis - 4) {
-    return absl::ResourceExhaustedError(
-        absl::StrCat("cell_size = ", cell, " makes ", most, " cells along an edge of ", longest_edge(bounds),
-                     "; at most ", kMaxCellsPerAxis - 4, " are admitted"));
+    return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", cell, " makes ", most, " cells along an edge of ",
+                                                     longest_edge(bounds), "; at most ", kMaxCellsPerAxis - 4,
+                                                     " are admitted"));
   }
   Lattice lattice;
   lattice.spacing = {cell, cell, cell};
@@ -148,22 +148,16 @@ std::vector<std::uint32_t> brick_neighbours(const std::vector<Brick>& bricks) {
   const auto key = [](std::uint64_t x, std::uint64_t y, std::uint64_t z) {
     return (x + 1) | (y + 1) << 21 | (z + 1) << 42;
   };
-  constexpr std::array<std::array<int, 3>, 9> kSteps{{{-1, 0, 0},
-                                                      {1, 0, 0},
-                                                      {0, -1, 0},
-                                                      {0, 1, 0},
-                                                      {0, 0, -1},
-                                                      {0, 0, 1},
-                                                      {0, -1, -1},
-                                                      {-1, 0, -1},
-                                                      {-1, -1, 0}}};
+  constexpr std::array<std::array<int, 3>, 9> kSteps{
+      {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, -1, -1}, {-1, 0, -1}, {-1, -1, 0}}};
   absl::flat_hash_map<std::uint64_t, std::uint32_t> places;
   places.reserve(bricks.size());
   for (std::uint32_t i = 0; i < bricks.size(); ++i) places.emplace(key(bricks[i].x, bricks[i].y, bricks[i].z), i);
   std::vector<std::uint32_t> neighbours(9 * bricks.size(), ~0u);
   for (std::size_t i = 0; i < bricks.size(); ++i) {
     for (std::size_t n = 0; n < 9; ++n) {
-      const auto it = places.find(key(bricks[i].x + kSteps[n][0], bricks[i].y + kSteps[n][1], bricks[i].z + kSteps[n][2]));
+      const auto it =
+          places.find(key(bricks[i].x + kSteps[n][0], bricks[i].y + kSteps[n][1], bricks[i].z + kSteps[n][2]));
       if (it != places.end()) neighbours[9 * i + n] = it->second;
     }
   }

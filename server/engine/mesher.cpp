@@ -85,8 +85,7 @@ class Run {
     // One binding holds a word for every cell.
     const std::uint64_t bound = device_.description().max_buffer_bytes / (4 * kCells);
     const std::uint64_t most = std::min<std::uint64_t>({request_.max_cells / kCells, bound, 1u << 24});
-    ISOFIELD_ASSIGN_OR_RETURN(list_,
-                              surface_bricks(scene_.tape(), request_, lattice_, most, callbacks_.cancelled));
+    ISOFIELD_ASSIGN_OR_RETURN(list_, surface_bricks(scene_.tape(), request_, lattice_, most, callbacks_.cancelled));
     constants_ = {{static_cast<float>(lattice_.origin.x), static_cast<float>(lattice_.origin.y),
                    static_cast<float>(lattice_.origin.z)},
                   static_cast<float>(request_.cell_size),
@@ -114,19 +113,19 @@ class Run {
   // Runs a kernel that follows tapes over (brick, place in its slab) pairs: bricks of a single leaf by the kernel that
   // knows no operator, the others by the scene's.
   template <class Wanted>
-  absl::Status run_bricks(Session& session, const shaders::Spirv& shader, std::uint32_t first, std::uint32_t count,
-                          Wanted is_wanted, std::vector<Buffer>& keep,
-                          const std::function<absl::Status(const gpu::Pipeline&, const Buffer& jobs, std::uint32_t)>&
-                              dispatch) {
+  absl::Status run_bricks(
+      Session& session, const shaders::Spirv& shader, std::uint32_t first, std::uint32_t count, Wanted is_wanted,
+      std::vector<Buffer>& keep,
+      const std::function<absl::Status(const gpu::Pipeline&, const Buffer& jobs, std::uint32_t)>& dispatch) {
     for (const bool single : {true, false}) {
       std::vector<Pair> jobs;
       for (std::uint32_t b = first; b < first + count; ++b) {
         if ((list_.bricks[b].tape_count == 1) == single && is_wanted(b)) jobs.push_back({b, b - first});
       }
       if (jobs.empty()) continue;
-      ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
-                                kernels_.get(shader, single ? KernelKind::single_leaf(scene_.tape())
-                                                            : KernelKind::of(scene_.tape())));
+      ISOFIELD_ASSIGN_OR_RETURN(
+          const gpu::Pipeline* kernel,
+          kernels_.get(shader, single ? KernelKind::single_leaf(scene_.tape()) : KernelKind::of(scene_.tape())));
       ISOFIELD_ASSIGN_OR_RETURN(Buffer job_buffer, session.upload(std::span(jobs)));
       keep.push_back(std::move(job_buffer));
       ISOFIELD_RETURN_IF_ERROR(dispatch(*kernel, keep.back(), static_cast<std::uint32_t>(jobs.size())));
@@ -147,22 +146,15 @@ class Run {
       ISOFIELD_RETURN_IF_ERROR(run_bricks(
           session, shaders::kMeshSample, first, count, [](std::uint32_t) { return true; }, keep,
           [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
-            return session.commands().dispatch(kernel,
-                                               {{0, &scene_.leaves()},
-                                                {1, &scene_.operations()},
-                                                {2, &scene_.tables()},
-                                                {3, &code_},
-                                                {4, &bricks_},
-                                                {5, &jobs},
-                                                {6, &samples}},
-                                               constants_, groups);
+            return session.commands().dispatch(
+                kernel, scene_.bindings(code_, {{4, &bricks_}, {5, &jobs}, {6, &samples}}), constants_, groups);
           }));
       session.commands().barrier();
       Constants constants = constants_;
       constants.first = first;
       constants.count = count;
-      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*classify, {{4, &bricks_}, {5, &samples}, {6, &cases_}}, constants,
-                                                  groups_of(std::uint64_t{count} * kCells / 4)));
+      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*classify, {{4, &bricks_}, {5, &samples}, {6, &cases_}},
+                                                           constants, groups_of(std::uint64_t{count} * kCells / 4)));
       ISOFIELD_RETURN_IF_ERROR(session.run());
       slabs_.push_back({first, count, std::move(samples)});
     }
@@ -179,14 +171,10 @@ class Run {
     ISOFIELD_ASSIGN_OR_RETURN(const Buffer count_buffer, session.scratch(sizeof(Pair) * total));
     Constants constants = constants_;
     constants.count = total;
-    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel,
-                                                {{4, &bricks_},
-                                                 {5, &surface_cases_},
-                                                 {6, &cases_},
-                                                 {7, &neighbours_},
-                                                 {8, &cells_},
-                                                 {9, &count_buffer}},
-                                                constants, groups_of(total)));
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
+        *kernel,
+        {{4, &bricks_}, {5, &surface_cases_}, {6, &cases_}, {7, &neighbours_}, {8, &cells_}, {9, &count_buffer}},
+        constants, groups_of(total)));
     ISOFIELD_RETURN_IF_ERROR(session.download(count_buffer, std::span(counts)));
     ISOFIELD_RETURN_IF_ERROR(session.run());
     starts_.assign(1, {0, 0});
@@ -216,14 +204,10 @@ class Run {
     ISOFIELD_ASSIGN_OR_RETURN(quad_list_, session.scratch(std::size_t{8} * starts_.back()[1]));
     Constants constants = constants_;
     constants.count = total;
-    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel,
-                                                {{4, &bricks_},
-                                                 {5, &surface_cases_},
-                                                 {6, &cells_},
-                                                 {7, &starts_buffer_},
-                                                 {8, &vertex_list_},
-                                                 {9, &quad_list_}},
-                                                constants, groups_of(total)));
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
+        *kernel,
+        {{4, &bricks_}, {5, &surface_cases_}, {6, &cells_}, {7, &starts_buffer_}, {8, &vertex_list_}, {9, &quad_list_}},
+        constants, groups_of(total)));
     return session.run();
   }
 
@@ -245,40 +229,30 @@ class Run {
       }
       std::vector<Buffer> keep;
       keep.reserve(4);
-      ISOFIELD_RETURN_IF_ERROR(run_bricks(
-          session, shaders::kMeshVertices, slab.first, slab.count, has_vertices, keep,
-          [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
-            return session.commands().dispatch(kernel,
-                                               {{0, &scene_.leaves()},
-                                                {1, &scene_.operations()},
-                                                {2, &scene_.tables()},
-                                                {3, &code_},
-                                                {4, &bricks_},
-                                                {5, &jobs},
-                                                {6, &slab.samples},
-                                                {7, &surface_cases_},
-                                                {8, &cells_},
-                                                {9, &starts_buffer_},
-                                                {10, &vertex_list_},
-                                                {11, &positions_}},
-                                               constants_, groups);
-          }));
+      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshVertices, slab.first, slab.count, has_vertices, keep,
+                                          [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
+                                            return session.commands().dispatch(
+                                                kernel,
+                                                scene_.bindings(code_, {{4, &bricks_},
+                                                                        {5, &jobs},
+                                                                        {6, &slab.samples},
+                                                                        {7, &surface_cases_},
+                                                                        {8, &cells_},
+                                                                        {9, &starts_buffer_},
+                                                                        {10, &vertex_list_},
+                                                                        {11, &positions_}}),
+                                                constants_, groups);
+                                          }));
       if (request_.with_normals) {
         session.commands().barrier();
         ISOFIELD_RETURN_IF_ERROR(run_bricks(
             session, shaders::kMeshNormals, slab.first, slab.count, has_vertices, keep,
             [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
-              return session.commands().dispatch(kernel,
-                                                 {{0, &scene_.leaves()},
-                                                  {1, &scene_.operations()},
-                                                  {2, &scene_.tables()},
-                                                  {3, &code_},
-                                                  {4, &bricks_},
-                                                  {5, &jobs},
-                                                  {6, &starts_buffer_},
-                                                  {7, &positions_},
-                                                  {8, &normals}},
-                                                 constants_, groups);
+              return session.commands().dispatch(
+                  kernel,
+                  scene_.bindings(code_,
+                                  {{4, &bricks_}, {5, &jobs}, {6, &starts_buffer_}, {7, &positions_}, {8, &normals}}),
+                  constants_, groups);
             }));
       }
       if (s + 1 == slabs_.size()) {
@@ -306,15 +280,15 @@ class Run {
       constants.first = first;
       constants.count = count;
       ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel,
-                                                  {{4, &bricks_},
-                                                   {5, &surface_cases_},
-                                                   {6, &cells_},
-                                                   {7, &neighbours_},
-                                                   {8, &starts_buffer_},
-                                                   {9, &quad_list_},
-                                                   {10, &positions_},
-                                                   {11, &triangles}},
-                                                  constants, groups_of(count)));
+                                                           {{4, &bricks_},
+                                                            {5, &surface_cases_},
+                                                            {6, &cells_},
+                                                            {7, &neighbours_},
+                                                            {8, &starts_buffer_},
+                                                            {9, &quad_list_},
+                                                            {10, &positions_},
+                                                            {11, &triangles}},
+                                                           constants, groups_of(count)));
       ISOFIELD_RETURN_IF_ERROR(session.download(
           triangles, std::span(mesh_.triangles).subspan(std::size_t{6} * first, std::size_t{6} * count)));
       ISOFIELD_RETURN_IF_ERROR(session.run());

@@ -16,10 +16,10 @@
 namespace isofield::engine {
 
 struct MeshRequest {
-  double cell_size = 0;       // > 0
+  double cell_size = 0;  // > 0
   // Where the surface leaves these, the mesh is capped within a cell. Absent: nothing is cut.
   std::optional<blobtree::Box> bounds;
-  double iso = 0.5;           // within ]0, 1[
+  double iso = 0.5;  // within ]0, 1[
   bool with_normals = true;
   std::uint64_t max_cells = 1u << 25;
 };

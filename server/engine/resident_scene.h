@@ -1,4 +1,4 @@
-// A scene on the device: its tape with the buffers that kernels read.
+// A scene on the device: its tape, from which requests prune theirs, with the parameter buffers that kernels read.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -8,6 +8,7 @@
 
 #include "blobtree/tape.h"
 #include "gpu/buffer.h"
+#include "gpu/commands.h"
 #include "gpu/device.h"
 
 namespace isofield::engine {
@@ -19,19 +20,15 @@ class ResidentScene {
   static absl::StatusOr<std::shared_ptr<const ResidentScene>> create(gpu::Device& device, blobtree::Tape tape);
 
   const blobtree::Tape& tape() const { return tape_; }
-  const gpu::Buffer& leaves() const { return leaves_; }
-  const gpu::Buffer& operations() const { return operations_; }
-  const gpu::Buffer& tables() const { return tables_; }
-  const gpu::Buffer& code() const { return code_; }
-  std::uint64_t device_bytes() const {
-    return leaves_.size() + operations_.size() + tables_.size() + code_.size();
-  }
+  // The bindings of a kernel that runs tapes pruned from this scene's, which lie in `code`, with its own ones.
+  gpu::Commands::Bindings bindings(const gpu::Buffer& code, const gpu::Commands::Bindings& own) const;
+  std::uint64_t device_bytes() const { return leaves_.size() + operations_.size() + tables_.size(); }
 
  private:
   ResidentScene() = default;
 
   blobtree::Tape tape_;
-  gpu::Buffer leaves_, operations_, tables_, code_;
+  gpu::Buffer leaves_, operations_, tables_;
 };
 
 using SceneLease = std::shared_ptr<const ResidentScene>;

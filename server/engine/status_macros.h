@@ -3,16 +3,16 @@
 
 #include <absl/status/statusor.h>
 
-#define ISOFIELD_RETURN_IF_ERROR(expression)                    \
-  do {                                                          \
-    if (absl::Status status_ = (expression); !status_.ok()) {   \
-      return status_;                                           \
-    }                                                           \
+#define ISOFIELD_RETURN_IF_ERROR(expression)                  \
+  do {                                                        \
+    if (absl::Status status_ = (expression); !status_.ok()) { \
+      return status_;                                         \
+    }                                                         \
   } while (false)
 
 #define ISOFIELD_CONCAT_(a, b) a##b
 #define ISOFIELD_CONCAT(a, b) ISOFIELD_CONCAT_(a, b)
-#define ISOFIELD_ASSIGN_OR_RETURN(declaration, expression)                      \
+#define ISOFIELD_ASSIGN_OR_RETURN(declaration, expression) \
   ISOFIELD_ASSIGN_OR_RETURN_(ISOFIELD_CONCAT(or_, __LINE__), declaration, expression)
 #define ISOFIELD_ASSIGN_OR_RETURN_(value, declaration, expression) \
   auto value = (expression);                                       \

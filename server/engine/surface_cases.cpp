@@ -7,7 +7,9 @@
 namespace isofield::engine {
 namespace {
 
-int next(int axis) { return (axis + 1) % 3; }
+int next(int axis) {
+  return (axis + 1) % 3;
+}
 
 int edge_between(int a, int b) {
   const int low = a < b ? a : b, axis = (a ^ b) == 1 ? 0 : (a ^ b) == 2 ? 1 : 2;
@@ -69,8 +71,7 @@ SurfaceCase make_case(int inside, int joined_face) {
   }
   for (int face = 0; face < 6; ++face) {
     const auto segments = face_segments(inside, face, face == joined_face);
-    if (segments.size() == 2 &&
-        result.patch_of_edge[segments[0].first] == result.patch_of_edge[segments[1].first]) {
+    if (segments.size() == 2 && result.patch_of_edge[segments[0].first] == result.patch_of_edge[segments[1].first]) {
       result.doubtful_face = face;
     }
   }

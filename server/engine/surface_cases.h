@@ -14,7 +14,8 @@ struct SurfaceCase {
   int patches = 0;
   std::array<std::uint8_t, 12> patch_of_edge{};  // of crossing edges
   std::array<std::uint16_t, 4> edges{};          // of each patch, a bit an edge
-  // A face on which one patch has two segments: if the neighbour's does too, the mesh would use one edge twice. -1: none.
+  // A face on which one patch has two segments: if the neighbour's does too, the mesh would use one edge twice. -1:
+  // none.
   int doubtful_face = -1;
 
   std::array<std::uint32_t, 4> packed() const;  // as the shaders read it

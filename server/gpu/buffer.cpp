@@ -49,8 +49,8 @@ absl::StatusOr<Buffer> Buffer::create(Device& device, std::size_t bytes, Use use
   Device::Impl& d = device.impl();
   const std::size_t size = std::max<std::size_t>((bytes + 15) / 16 * 16, 16);
   if (size > d.description.max_buffer_bytes) {
-    return absl::ResourceExhaustedError(absl::StrCat("a buffer of ", size, " bytes; the device binds at most ",
-                                                     d.description.max_buffer_bytes));
+    return absl::ResourceExhaustedError(
+        absl::StrCat("a buffer of ", size, " bytes; the device binds at most ", d.description.max_buffer_bytes));
   }
   try {
     auto impl = std::make_unique<Impl>(d, size);
@@ -72,7 +72,11 @@ absl::StatusOr<Buffer> Buffer::create(Device& device, std::size_t bytes, Use use
   }
 }
 
-std::size_t Buffer::size() const { return impl_ ? impl_->size : 0; }
-std::byte* Buffer::data() const { return impl_ ? impl_->mapped : nullptr; }
+std::size_t Buffer::size() const {
+  return impl_ ? impl_->size : 0;
+}
+std::byte* Buffer::data() const {
+  return impl_ ? impl_->mapped : nullptr;
+}
 
 }  // namespace isofield::gpu

@@ -15,8 +15,7 @@ struct Commands::Impl {
   explicit Impl(Device::Impl& d)
       : device(d),
         pool(*d.device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, d.queue_family)),
-        buffer(std::move(
-            vk::raii::CommandBuffers(*d.device, {*pool, vk::CommandBufferLevel::ePrimary, 1}).front())),
+        buffer(std::move(vk::raii::CommandBuffers(*d.device, {*pool, vk::CommandBufferLevel::ePrimary, 1}).front())),
         fence(*d.device, vk::FenceCreateInfo()) {
     buffer.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
   }
@@ -29,10 +28,7 @@ struct Commands::Impl {
     }
     --sets_left;
     // Freed with their pool.
-    return (*device.device)
-        .allocateDescriptorSets({*set_pools.back(), **device.set_layout})
-        .front()
-        .release();
+    return (*device.device).allocateDescriptorSets({*set_pools.back(), **device.set_layout}).front().release();
   }
 
   Device::Impl& device;
@@ -59,8 +55,8 @@ absl::StatusOr<Commands> Commands::begin(Device& device) {
   }
 }
 
-absl::Status Commands::dispatch(const Pipeline& pipeline, Bindings bindings, std::span<const std::byte> push_constants,
-                                std::uint32_t groups) {
+absl::Status Commands::dispatch(const Pipeline& pipeline, const Bindings& bindings,
+                                std::span<const std::byte> push_constants, std::uint32_t groups) {
   if (groups == 0) return absl::OkStatus();
   if (groups > kMaxGroups) return absl::InternalError(absl::StrCat("a dispatch of ", groups, " workgroups"));
   try {
@@ -88,9 +84,9 @@ absl::Status Commands::dispatch(const Pipeline& pipeline, Bindings bindings, std
 void Commands::barrier() {
   using Access = vk::AccessFlagBits;
   using Stage = vk::PipelineStageFlagBits;
-  const vk::MemoryBarrier all(Access::eShaderWrite | Access::eTransferWrite,
-                              Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead |
-                                  Access::eTransferWrite | Access::eHostRead);
+  const vk::MemoryBarrier all(
+      Access::eShaderWrite | Access::eTransferWrite,
+      Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead | Access::eTransferWrite | Access::eHostRead);
   impl_->buffer.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer,
                                 Stage::eComputeShader | Stage::eTransfer | Stage::eHost, {}, all, {}, {});
 }
@@ -100,7 +96,9 @@ void Commands::copy(const Buffer& from, std::size_t from_offset, const Buffer& t
   impl_->buffer.copyBuffer(**from.impl().buffer, **to.impl().buffer, vk::BufferCopy(from_offset, to_offset, bytes));
 }
 
-void Commands::fill_zero(const Buffer& buffer) { impl_->buffer.fillBuffer(**buffer.impl().buffer, 0, VK_WHOLE_SIZE, 0); }
+void Commands::fill_zero(const Buffer& buffer) {
+  impl_->buffer.fillBuffer(**buffer.impl().buffer, 0, VK_WHOLE_SIZE, 0);
+}
 
 absl::Status Commands::submit() {
   try {
@@ -121,7 +119,8 @@ absl::Status Commands::wait() {
   try {
     const vk::Result result = impl_->device.device->waitForFences(*impl_->fence, true, ~std::uint64_t{0});
     impl_->is_submitted = false;
-    return result == vk::Result::eSuccess ? absl::OkStatus() : absl::InternalError("Vulkan: waiting for a fence failed");
+    return result == vk::Result::eSuccess ? absl::OkStatus()
+                                          : absl::InternalError("Vulkan: waiting for a fence failed");
   } catch (const vk::SystemError& error) {
     return to_status(error, "waiting for the device");
   }

@@ -4,10 +4,10 @@
 #include <absl/status/statusor.h>
 
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/pipeline.h"
@@ -23,13 +23,14 @@ class Commands {
   Commands& operator=(Commands&&) noexcept;
   ~Commands();
 
-  using Bindings = std::initializer_list<std::pair<std::uint32_t, const Buffer*>>;
+  using Bindings = std::vector<std::pair<std::uint32_t, const Buffer*>>;
   // Runs `groups` workgroups, in dispatches of at most what the device takes along one axis: a shader finds its group
   // by gl_WorkGroupID.x, so callers keep groups <= 65,535. Nothing is recorded for 0 groups.
-  absl::Status dispatch(const Pipeline& pipeline, Bindings bindings, std::span<const std::byte> push_constants,
+  absl::Status dispatch(const Pipeline& pipeline, const Bindings& bindings, std::span<const std::byte> push_constants,
                         std::uint32_t groups);
   template <class Constants>
-  absl::Status dispatch(const Pipeline& pipeline, Bindings bindings, const Constants& constants, std::uint32_t groups) {
+  absl::Status dispatch(const Pipeline& pipeline, const Bindings& bindings, const Constants& constants,
+                        std::uint32_t groups) {
     return dispatch(pipeline, bindings, std::as_bytes(std::span(&constants, 1)), groups);
   }
   // What follows sees what came before.

@@ -164,8 +164,14 @@ absl::StatusOr<std::unique_ptr<Device>> Device::create(const DeviceOptions& opti
   }
 }
 
-const DeviceDescription& Device::description() const { return impl_->description; }
-std::uint64_t Device::validation_messages() const { return impl_->validation_messages; }
-std::uint64_t Device::allocated_bytes() const { return impl_->allocated_bytes; }
+const DeviceDescription& Device::description() const {
+  return impl_->description;
+}
+std::uint64_t Device::validation_messages() const {
+  return impl_->validation_messages;
+}
+std::uint64_t Device::allocated_bytes() const {
+  return impl_->allocated_bytes;
+}
 
 }  // namespace isofield::gpu

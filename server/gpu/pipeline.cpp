@@ -12,8 +12,7 @@ absl::StatusOr<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, std::
                                                            std::span<const std::uint32_t> constants) {
   Device::Impl& d = device.impl();
   try {
-    const vk::raii::ShaderModule module(*d.device,
-                                        vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
+    const vk::raii::ShaderModule module(*d.device, vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, 4 * i, 4);
     const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),

@@ -54,7 +54,8 @@ Polynomial fit_polynomial(const std::function<double(double)>& function, double 
   constexpr double kPi = std::numbers::pi;
   const auto angle = [&](std::size_t k) { return kPi * (static_cast<double>(k) + 0.5) / terms; };
   std::vector<double> samples;
-  for (std::size_t k = 0; k < n; ++k) samples.push_back(function(low + (high - low) * (0.5 + 0.5 * std::cos(angle(k)))));
+  for (std::size_t k = 0; k < n; ++k)
+    samples.push_back(function(low + (high - low) * (0.5 + 0.5 * std::cos(angle(k)))));
   // Chebyshev coefficients, each spread over the powers of s by T_j = 2 s T_(j-1) - T_(j-2).
   Polynomial result(n, 0), before(n, 0), current(n, 0);
   for (std::size_t j = 0; j < n; ++j) {

@@ -33,9 +33,8 @@ absl::StatusOr<blobtree::dvec3> read_vector(const char* name, const google::prot
   if (v.size() != 3) return absl::InvalidArgumentError(absl::StrCat(name, " holds ", v.size(), " numbers: expected 3"));
   for (int i = 0; i < 3; ++i) {
     if (!(std::abs(v[i]) <= blobtree::kMaxCoordinate)) {
-      return absl::InvalidArgumentError(absl::StrCat(name, "[", i, "] = ", v[i],
-                                                     ": expected a finite number of magnitude at most ",
-                                                     blobtree::kMaxCoordinate));
+      return absl::InvalidArgumentError(absl::StrCat(
+          name, "[", i, "] = ", v[i], ": expected a finite number of magnitude at most ", blobtree::kMaxCoordinate));
     }
   }
   return blobtree::dvec3{v[0], v[1], v[2]};
@@ -62,8 +61,8 @@ absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& re
   for (int i = 0; i < 3; ++i) {
     const std::uint64_t count = request.counts(i);
     if (count < 1 || count > engine::kMaxCellsPerAxis) {
-      return absl::InvalidArgumentError(absl::StrCat("counts[", i, "] = ", count, ": expected a count within [1, ",
-                                                     engine::kMaxCellsPerAxis, "]"));
+      return absl::InvalidArgumentError(
+          absl::StrCat("counts[", i, "] = ", count, ": expected a count within [1, ", engine::kMaxCellsPerAxis, "]"));
     }
     lattice.cells[i] = static_cast<std::uint32_t>(count);
     points *= count;
@@ -138,19 +137,31 @@ grpc::Status FieldService::EvaluateGrid(grpc::ServerContext* context, const v1::
   if (!leased.ok()) return to_grpc(leased.status());
 
   const auto [nx, ny, nz] = lattice->cells;
-  // Whole layers of bricks, at least one.
-  const std::uint64_t bricks = std::max<std::uint64_t>(kGridSlab / (std::uint64_t{nx} * ny) / blobtree::kBrickCells, 1);
+  const std::uint64_t layer = std::uint64_t{nx} * ny;
+  // Whole layers of bricks are evaluated at once, at least one; of large layers a message holds fewer.
+  const std::uint64_t bricks = std::max<std::uint64_t>(kGridSlab / layer / blobtree::kBrickCells, 1);
   const auto step = static_cast<std::uint32_t>(std::min<std::uint64_t>(bricks * blobtree::kBrickCells, nz + 3));
+  const std::uint64_t most = limits_.max_points_per_message / layer;
+  const std::uint32_t width = engine::components(*quantity);
+  v1::EvaluateGridResponse response;
+  std::vector<float> several;  // layers that take more than one message
   for (std::uint32_t k = 0; k < nz; k += step) {
     if (context->IsCancelled()) return {grpc::StatusCode::CANCELLED, "the client is gone"};
     const std::uint32_t layers = std::min(step, nz - k);
-    v1::EvaluateGridResponse response;
-    response.set_first_layer(k);
-    const std::span<float> out =
-        make_float_tensor({layers, ny, nx, engine::components(*quantity)}, *response.mutable_result());
-    const absl::Status s = engine_.fields().evaluate_layers(*leased->scene, *lattice, k, *quantity, out);
-    if (!s.ok()) return to_grpc(s);
-    if (!writer->Write(response)) return {grpc::StatusCode::CANCELLED, "the client is gone"};
+    for (std::uint64_t at = 0; at < layers; at += most) {
+      const std::uint64_t part = std::min<std::uint64_t>(most, layers - at);
+      response.Clear();
+      response.set_first_layer(k + at);
+      const std::span<float> out = make_float_tensor({part, ny, nx, width}, *response.mutable_result());
+      if (at == 0) {
+        if (part < layers) several.resize(layers * layer * width);
+        const absl::Status s = engine_.fields().evaluate_layers(*leased->scene, *lattice, k, *quantity,
+                                                                part < layers ? std::span(several) : out);
+        if (!s.ok()) return to_grpc(s);
+      }
+      if (part < layers) std::copy_n(several.begin() + at * layer * width, out.size(), out.begin());
+      if (!writer->Write(response)) return {grpc::StatusCode::CANCELLED, "the client is gone"};
+    }
   }
   return grpc::Status::OK;
 }

@@ -23,8 +23,9 @@ constexpr std::uint32_t kMaxResolution = 1u << 20;
 absl::StatusOr<std::optional<blobtree::Box>> read_bounds(const v1::MeshRequest& request) {
   if (request.bounds_min().empty() && request.bounds_max().empty()) return std::nullopt;
   if (request.bounds_min_size() != 3 || request.bounds_max_size() != 3) {
-    return absl::InvalidArgumentError(absl::StrCat("bounds_min and bounds_max hold ", request.bounds_min_size(), " and ",
-                                                   request.bounds_max_size(), " numbers: expected 3 each, or none"));
+    return absl::InvalidArgumentError(absl::StrCat("bounds_min and bounds_max hold ", request.bounds_min_size(),
+                                                   " and ", request.bounds_max_size(),
+                                                   " numbers: expected 3 each, or none"));
   }
   for (int i = 0; i < 3; ++i) {
     const double low = request.bounds_min(i), high = request.bounds_max(i);

@@ -24,9 +24,14 @@ void fill_summary(const catalog::Entry& entry, const engine::ResidentScene& scen
 absl::Status SceneService::store(const std::string& name, const v1::Scene& scene, const catalog::Condition& condition,
                                  v1::SceneSummary& summary) {
   ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease lease, engine_.make_resident(scene));
-  ISOFIELD_ASSIGN_OR_RETURN(const catalog::Catalog::Put put, catalog_.put(name, scene, condition));
-  engine_.keep(put.entry.version, lease);
-  if (put.replaced_version != 0) engine_.drop(put.replaced_version);
+  v1::Scene stored = scene;
+  catalog::Catalog::Put put;
+  {
+    const std::lock_guard lock(residency_mutex_);
+    ISOFIELD_ASSIGN_OR_RETURN(put, catalog_.put(name, std::move(stored), condition));
+    engine_.keep(put.entry.version, lease);
+    if (put.replaced_version != 0) engine_.drop(put.replaced_version);
+  }
   fill_summary(put.entry, *lease, summary);
   return absl::OkStatus();
 }
@@ -63,6 +68,7 @@ grpc::Status SceneService::ListScenes(grpc::ServerContext*, const v1::ListScenes
 
 grpc::Status SceneService::DeleteScene(grpc::ServerContext*, const v1::DeleteSceneRequest* request,
                                        v1::DeleteSceneResponse*) {
+  const std::lock_guard lock(residency_mutex_);
   const absl::StatusOr<std::uint64_t> version = catalog_.remove(request->name());
   if (!version.ok()) return to_grpc(version.status());
   engine_.drop(*version);

@@ -1,6 +1,8 @@
 // SceneService of the contract.
 #pragma once
 
+#include <mutex>
+
 #include "catalog/catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
@@ -25,6 +27,9 @@ class SceneService final : public v1::SceneService::Service {
 
   catalog::Catalog& catalog_;
   engine::Engine& engine_;
+  // What is resident follows what is in the catalog, step by step: or of two puts at once the first could be kept after
+  // the second has dropped it, and stay for good.
+  std::mutex residency_mutex_;
 };
 
 }  // namespace isofield::rpc

@@ -33,9 +33,8 @@ std::size_t first_not_finite(std::span<const T> numbers) {
 absl::StatusOr<PointArray> PointArray::read(const v1::Tensor& tensor, std::uint64_t max_points) {
   if (tensor.dtype() != v1::Tensor::FLOAT32 && tensor.dtype() != v1::Tensor::FLOAT64) {
     const std::string& name = v1::Tensor::DType_Name(tensor.dtype());  // empty: a number that has none
-    return absl::InvalidArgumentError(absl::StrCat("points.dtype = ",
-                                                   name.empty() ? absl::StrCat(tensor.dtype()) : name,
-                                                   ": expected FLOAT32 or FLOAT64"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        "points.dtype = ", name.empty() ? absl::StrCat(tensor.dtype()) : name, ": expected FLOAT32 or FLOAT64"));
   }
   if (tensor.shape_size() != 2 || tensor.shape(1) != 3) {
     return absl::InvalidArgumentError(

@@ -14,8 +14,8 @@ namespace isofield::rpc {
 // Points as float32, in place where the tensor holds that and converted where it holds float64.
 class PointArray {
  public:
-  // INVALID_ARGUMENT: dtype, shape or size, or a coordinate that is not finite. RESOURCE_EXHAUSTED: more than max_points.
-  // `tensor` must outlive the result.
+  // INVALID_ARGUMENT: dtype, shape or size, or a coordinate that is not finite. RESOURCE_EXHAUSTED: more than
+  // max_points. `tensor` must outlive the result.
   static absl::StatusOr<PointArray> read(const v1::Tensor& tensor, std::uint64_t max_points);
 
   std::span<const float> xyz() const { return xyz_; }

@@ -8,12 +8,14 @@ namespace {
 
 using Type = DeviceCandidate::Type;
 
-DeviceCandidate candidate(const char* name, Type type) { return {name, type, 1, 3, true, 16, 256}; }
+DeviceCandidate candidate(const char* name, Type type) {
+  return {name, type, 1, 3, true, 16, 256};
+}
 
 TEST(DeviceSelection, PrefersDiscreteDevices) {
-  const auto choice = select_device(
-      {candidate("llvmpipe", Type::kCpu), candidate("Some GPU", Type::kDiscrete), candidate("Other", Type::kIntegrated)},
-      "");
+  const auto choice = select_device({candidate("llvmpipe", Type::kCpu), candidate("Some GPU", Type::kDiscrete),
+                                     candidate("Other", Type::kIntegrated)},
+                                    "");
   ASSERT_TRUE(choice.ok());
   EXPECT_EQ(*choice, 1u);
 }

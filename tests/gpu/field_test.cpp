@@ -104,7 +104,8 @@ TEST(FieldOnDevice, GivesTheSameBitsOnALatticeAsAtItsPoints) {
     std::vector<float> grid(points.size(), -1);
     const std::size_t layer = 27 * 30 * components(quantity);
     const absl::Status low = fields().evaluate_layers(*scene, lattice, 0, quantity, std::span(grid).first(8 * layer));
-    const absl::Status high = fields().evaluate_layers(*scene, lattice, 8, quantity, std::span(grid).subspan(8 * layer));
+    const absl::Status high =
+        fields().evaluate_layers(*scene, lattice, 8, quantity, std::span(grid).subspan(8 * layer));
     ASSERT_TRUE(low.ok() && high.ok());
     EXPECT_EQ(std::memcmp(grid.data(), points.data(), grid.size() * sizeof(float)), 0);
   }
@@ -131,9 +132,9 @@ TEST(FieldOnDevice, IsFiniteForDegenerateBlends) {
     {"name": "e", "sum": {"children": ["a", "b", "c"]}},)";
   for (const char* opening : {R"({"preset": "CAMEL"})", R"({"preset": "ORGANIC"})", R"({"preset": "CONTACT"})"}) {
     for (const char* silhouette : {"{}", R"({"kind": "BULGE", "k": 1})"}) {
-      const engine::SceneLease scene = resident(test_support::scene_of_nodes(
-          nodes + R"({"gradient": {"children": ["a", "b", "c", "d", "e"], "opening": )" + opening +
-          R"(, "silhouette": )" + silhouette + "}}]"));
+      const engine::SceneLease scene = resident(
+          test_support::scene_of_nodes(nodes + R"({"gradient": {"children": ["a", "b", "c", "d", "e"], "opening": )" +
+                                       opening + R"(, "silhouette": )" + silhouette + "}}]"));
       std::vector<float> xyz = random_points(2, 2000, 1.5);
       for (int i = 0; i < 300; ++i) xyz[3 * i + 1] = xyz[3 * i + 2] = 0;  // on the axes
       xyz[0] = xyz[1] = xyz[2] = 0;

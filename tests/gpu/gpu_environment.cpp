@@ -43,8 +43,12 @@ class GpuEnvironment : public testing::Environment {
 
 }  // namespace
 
-gpu::Device& device() { return *the_device; }
-engine::KernelCache& kernels() { return *the_kernels; }
+gpu::Device& device() {
+  return *the_device;
+}
+engine::KernelCache& kernels() {
+  return *the_kernels;
+}
 
 engine::SceneLease resident(const v1::Scene& scene) {
   auto lease = engine::ResidentScene::create(device(), test_support::compile_or_die(test_support::read_or_die(scene)));

@@ -37,9 +37,9 @@ void expect_on_surface(const Mesh& m, const v1::Scene& scene, double cell, doubl
     const double distance = std::abs(s.value - iso) / slope / cell;
     worst = std::max(worst, distance);
     off += !(distance <= 0.01);
-    const double cosine = -(s.gradient.x * m.normals[3 * v] + s.gradient.y * m.normals[3 * v + 1] +
-                            s.gradient.z * m.normals[3 * v + 2]) /
-                          slope;
+    const double cosine =
+        -(s.gradient.x * m.normals[3 * v] + s.gradient.y * m.normals[3 * v + 1] + s.gradient.z * m.normals[3 * v + 2]) /
+        slope;
     turned += !(cosine > 0.99);
   }
   std::cout << count << " vertices, furthest " << worst << " cells off the surface\n";

@@ -65,7 +65,9 @@ void expect_golden_blend(const std::string& file, const Silhouette& silhouette, 
   EXPECT_LE(worst, tolerance);
 }
 
-TEST(OperatorOnDevice, ReproducesGoldenSmoothBlend) { expect_golden_blend("gradient_smooth.csv", {}, 2e-6); }
+TEST(OperatorOnDevice, ReproducesGoldenSmoothBlend) {
+  expect_golden_blend("gradient_smooth.csv", {}, 2e-6);
+}
 TEST(OperatorOnDevice, ReproducesGoldenBulges) {
   expect_golden_blend("gradient_bulge_0.8.csv", {Silhouette::Kind::kBulge, 0.8}, 2e-5);
   expect_golden_blend("gradient_bulge_0.25.csv", {Silhouette::Kind::kBulge, 0.25}, 2e-5);
