@@ -34,7 +34,9 @@ std::optional<std::uint32_t> memory_type(const vk::PhysicalDeviceMemoryPropertie
 bool worth_mapping(const Device::Impl& device, Flags flags, Buffer::Use use) {
   const Flags visible = Flag::eHostVisible | Flag::eHostCoherent;
   if ((flags & visible) != visible) return false;
-  return use != Buffer::Use::kDevice || device.description.type == "cpu" || device.description.type == "integrated";
+  if (use != Buffer::Use::kDevice) return true;
+  const std::string& type = device.description.type;
+  return !device.always_stage && (type == "cpu" || type == "integrated");
 }
 
 }  // namespace

@@ -153,6 +153,7 @@ absl::StatusOr<std::unique_ptr<Device>> Device::create(const DeviceOptions& opti
   try {
     auto impl = std::make_unique<Impl>();
     impl->on_validation_message = options.on_validation_message;
+    impl->always_stage = options.always_stage;
     if (absl::Status s = create_instance(options, *impl); !s.ok()) return s;
     if (absl::Status s = pick_physical(options, *impl); !s.ok()) return s;
     create_device(*impl);

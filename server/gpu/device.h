@@ -16,6 +16,8 @@ struct DeviceOptions {
   std::string name;
   // The Khronos validation layer; an error when it is not installed.
   bool validation = false;
+  // Never maps device memory, as if the host could not see it: the road of discrete devices, testable on any.
+  bool always_stage = false;
   // Called with each validation message, from any thread.
   std::function<void(const std::string&)> on_validation_message;
 };

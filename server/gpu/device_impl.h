@@ -28,6 +28,7 @@ struct Device::Impl {
   vk::PhysicalDeviceMemoryProperties memory;
 
   DeviceDescription description;
+  bool always_stage = false;
   std::function<void(const std::string&)> on_validation_message;
   std::atomic<std::uint64_t> validation_messages{0};
   std::atomic<std::uint64_t> allocated_bytes{0};

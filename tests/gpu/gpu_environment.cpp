@@ -19,6 +19,7 @@ class GpuEnvironment : public testing::Environment {
     gpu::DeviceOptions options;
     // Machines without the layer can run the tests all the same, but not by default.
     options.validation = std::getenv("ISOFIELD_TESTS_WITHOUT_VALIDATION") == nullptr;
+    options.always_stage = std::getenv("ISOFIELD_TESTS_STAGE") != nullptr;
     options.on_validation_message = [](const std::string& message) { std::cerr << "validation: " << message << "\n"; };
     auto device = gpu::Device::create(options);
     if (!device.ok()) {
