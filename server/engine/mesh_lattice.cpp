@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/status_macros.h"
+
 namespace isofield::engine {
 namespace {
 
@@ -94,12 +96,11 @@ double thinness(const blobtree::Leaf& leaf) {
 absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request) {
   const double cell = request.cell_size;
   const Box bounds = request.bounds.value_or(tape.support);
-  const double most =
-      std::max({longest_edge(bounds) / cell, request.bounds ? 0.0 : std::abs(bounds.min.x) / cell / 1024});
-  if (most > kMaxCellsPerAxis - 4) {
-    return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", cell, " makes ", most, " cells along an edge of ",
-                                                     longest_edge(bounds), "; at most ", kMaxCellsPerAxis - 4,
-                                                     " are admitted"));
+  // Far from the origin float32 tells points apart no better than at that distance: a cell is 4 such steps at least.
+  const double reach = std::max({std::abs(bounds.min.x), std::abs(bounds.min.y), std::abs(bounds.min.z),
+                                 std::abs(bounds.max.x), std::abs(bounds.max.y), std::abs(bounds.max.z)});
+  if (std::max(longest_edge(bounds), 2 * reach) / cell > kMaxCellsPerAxis - 4) {
+    return absl::ResourceExhaustedError("too many cells along an axis");
   }
   Lattice lattice;
   lattice.spacing = {cell, cell, cell};
@@ -119,28 +120,34 @@ absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshReque
 }
 
 absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const MeshRequest& request) {
-  constexpr std::uint64_t kBricks =
-      kAutomaticCells / (blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells);
+  constexpr std::uint64_t kCells = blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells;
+  const std::uint64_t most = std::min(kAutomaticCells, request.max_cells) / kCells;
   if (tape.support.empty()) return 1.0;
   double cell = longest_edge(request.bounds.value_or(tape.support)) / kAutomaticCellsAlong;
   for (const blobtree::Leaf& leaf : tape.leaves) cell = std::min(cell, thinness(leaf));
   for (;; cell *= 1.25) {
-    const auto bricks = count_bricks(tape, request, cell, kBricks, {});
+    const auto bricks = count_bricks(tape, request, cell, most, {});
     if (!bricks.ok()) return bricks.status();
-    if (*bricks <= kBricks) return cell;
+    if (*bricks <= most) return cell;
   }
 }
 
-absl::StatusOr<BrickList> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request, const Lattice& lattice,
-                                         std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
-  absl::StatusOr<BrickList> list = cull_surface(tape, request, lattice, max_bricks, cancelled);
-  if (!absl::IsResourceExhausted(list.status())) return list;
-  const auto fits = smallest_fitting_cell(tape, request, max_bricks, cancelled);
-  if (!fits.ok()) return fits.status();
+absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
+                                             std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
+  const auto find = [&]() -> absl::StatusOr<SurfaceBricks> {
+    ISOFIELD_ASSIGN_OR_RETURN(Lattice lattice, mesh_lattice(tape, request));
+    ISOFIELD_ASSIGN_OR_RETURN(BrickList list, cull_surface(tape, request, lattice, max_bricks, cancelled));
+    return SurfaceBricks{lattice, std::move(list)};
+  };
+  absl::StatusOr<SurfaceBricks> found = find();
+  if (!absl::IsResourceExhausted(found.status())) return found;
+  ISOFIELD_ASSIGN_OR_RETURN(const double fits, smallest_fitting_cell(tape, request, max_bricks, cancelled));
   constexpr std::uint64_t kCells = blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells;
-  return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", request.cell_size, " takes more than the ",
-                                                   max_bricks * kCells,
-                                                   " cells admitted; the smallest cell size that fits is ", *fits));
+  return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", request.cell_size, " takes more cells than the ",
+                                                   max_bricks * kCells, " in all, or the ", kMaxCellsPerAxis,
+                                                   " along an axis, that are admitted; the smallest cell size that "
+                                                   "fits is ",
+                                                   fits));
 }
 
 std::vector<std::uint32_t> brick_neighbours(const std::vector<Brick>& bricks) {

@@ -21,10 +21,14 @@ inline constexpr double kAutomaticCellsAlong = 200;
 inline constexpr std::uint64_t kAutomaticCells = 1u << 22;
 absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const MeshRequest& request);
 
-// The bricks that the surface may cross. RESOURCE_EXHAUSTED beyond max_bricks, with the smallest cell size that fits.
-absl::StatusOr<blobtree::BrickList> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
-                                                   const blobtree::Lattice& lattice, std::uint64_t max_bricks,
-                                                   const std::function<bool()>& cancelled);
+// The lattice with the bricks that the surface may cross. RESOURCE_EXHAUSTED beyond max_bricks, with the smallest cell
+// size that fits.
+struct SurfaceBricks {
+  blobtree::Lattice lattice;
+  blobtree::BrickList list;
+};
+absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
+                                             std::uint64_t max_bricks, const std::function<bool()>& cancelled);
 
 // For each brick the places of the nine neighbours that shaders/lib/mesh_neighbours.glsl names, or ~0.
 std::vector<std::uint32_t> brick_neighbours(const std::vector<blobtree::Brick>& bricks);

@@ -81,15 +81,16 @@ class Run {
 
   absl::Status find_bricks() {
     ISOFIELD_RETURN_IF_ERROR(check(0));
-    ISOFIELD_ASSIGN_OR_RETURN(lattice_, mesh_lattice(scene_.tape(), request_));
     // One binding holds a word for every cell.
     const std::uint64_t bound = device_.description().max_buffer_bytes / (4 * kCells);
     const std::uint64_t most = std::min<std::uint64_t>({request_.max_cells / kCells, bound, 1u << 24});
-    ISOFIELD_ASSIGN_OR_RETURN(list_, surface_bricks(scene_.tape(), request_, lattice_, most, callbacks_.cancelled));
-    constants_ = {{static_cast<float>(lattice_.origin.x), static_cast<float>(lattice_.origin.y),
-                   static_cast<float>(lattice_.origin.z)},
+    ISOFIELD_ASSIGN_OR_RETURN(SurfaceBricks found, surface_bricks(scene_.tape(), request_, most, callbacks_.cancelled));
+    const Lattice& lattice = found.lattice;
+    list_ = std::move(found.list);
+    constants_ = {{static_cast<float>(lattice.origin.x), static_cast<float>(lattice.origin.y),
+                   static_cast<float>(lattice.origin.z)},
                   static_cast<float>(request_.cell_size),
-                  {lattice_.cells[0], lattice_.cells[1], lattice_.cells[2], 0},
+                  {lattice.cells[0], lattice.cells[1], lattice.cells[2], 0},
                   0,
                   0,
                   static_cast<float>(request_.iso),
@@ -302,7 +303,6 @@ class Run {
   const MeshRequest& request_;
   const MeshCallbacks& callbacks_;
 
-  Lattice lattice_;
   BrickList list_;
   Constants constants_{};
   std::vector<Slab> slabs_;

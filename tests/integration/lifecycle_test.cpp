@@ -1,0 +1,204 @@
+// The daemon as an administrator sees it: addresses, options, signals, restarts.
+#include <gtest/gtest.h>
+#include <isofield/client.h>
+#include <signal.h>
+
+#include <cstdlib>
+
+#include "integration/ball.h"
+#include "integration/daemon.h"
+#include "integration/peer.h"
+
+namespace isofield::integration_test {
+namespace {
+
+void expect_in(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in: " << text;
+}
+
+TEST(Lifecycle, ServesOnAFreePortOfTcp) {
+  Daemon daemon({}, "127.0.0.1:0");
+  EXPECT_EQ(daemon.address().substr(0, 10), "127.0.0.1:");
+  EXPECT_GT(std::stoi(daemon.address().substr(10)), 0);
+  expect_serving(daemon.address());
+  auto client = Client::connect(daemon.address());
+  ASSERT_TRUE(client.ok());
+  EXPECT_TRUE(client->info().ok());
+}
+
+TEST(Lifecycle, ASecondDaemonOnTheSamePortIsRefused) {
+  Daemon daemon({}, "127.0.0.1:0");
+  const Outcome second = run(daemon_command({"--listen", daemon.address()}));
+  EXPECT_EQ(second.exit_code, 1);
+  expect_in(second.errors, {"isofieldd: ", daemon.address(), "--listen"});
+  expect_serving(daemon.address());
+}
+
+TEST(Lifecycle, ASecondDaemonOnTheSameSocketIsRefused) {
+  Daemon daemon;
+  const Outcome second = run(daemon_command({"--listen", daemon.address()}));
+  EXPECT_EQ(second.exit_code, 1);
+  expect_in(second.errors, {"isofieldd: ", "another process serves on " + daemon.address()});
+  expect_serving(daemon.address());
+}
+
+TEST(Lifecycle, ASocketLeftByAKilledDaemonIsTakenOver) {
+  const TemporaryDirectory directory;
+  const std::string address = "unix:" + directory.path("s");
+  {
+    Daemon killed({}, address);
+    killed.kill();
+  }
+  EXPECT_EQ(directory.listing(), "s\n");
+  Daemon daemon({}, address);
+  expect_serving(address);
+}
+
+TEST(Lifecycle, AddressesThatCannotBeServedAreRefused) {
+  const TemporaryDirectory directory;
+  write_file(directory.path("file"), "precious");
+  for (const std::string& address :
+       {std::string("unix:"), "unix:" + std::string(200, 'x'), "unix:" + directory.path("none/s"),
+        "unix:" + directory.path("file"), std::string("127.0.0.1"), std::string("203.0.113.7:5000"),
+        std::string("127.0.0.1:99999"), std::string("127.0.0.1:http"), std::string("127.0.0.1:-1"), std::string(":5000"), std::string("nonsense"),
+        std::string("unix-abstract:name"), std::string("")}) {
+    const Outcome outcome = run(daemon_command({"--listen", address}));
+    EXPECT_EQ(outcome.exit_code, 1) << address;
+    expect_in(outcome.errors, {"isofieldd: ", "--listen"});
+  }
+  EXPECT_EQ(read_file(directory.path("file")), "precious") << "only sockets are taken over";
+}
+
+TEST(Lifecycle, SigtermLetsARunningMeshFinish) {
+  Daemon daemon({"--drain-seconds", "300"});
+  Peer peer(daemon.address());
+  grpc::ClientContext context;
+  const auto stream = peer.meshes().Mesh(&context, mesh_request(inlined(Ball().scene()), 0.004));
+  v1::MeshResponse response;
+  ASSERT_TRUE(stream->Read(&response));
+  ASSERT_TRUE(response.has_progress());
+  daemon.process().signal(SIGTERM);
+  ASSERT_NE(daemon.process().wait_for_error_line("finishing running requests"), "");
+  std::uint64_t vertices = 0, received = 0;
+  do {
+    if (response.has_summary()) vertices = response.summary().vertices();
+    if (response.has_part()) received += response.part().positions().data().size() / 12;
+  } while (stream->Read(&response));
+  EXPECT_TRUE(ok(stream->Finish()));
+  EXPECT_GT(vertices, 100'000u);
+  EXPECT_EQ(received, vertices);
+  daemon.expect_orderly_end();
+}
+
+TEST(Lifecycle, SigtermEndsIdleStreamsAfterTheDrain) {
+  Daemon daemon({"--drain-seconds", "1"});
+  Peer peer(daemon.address());
+  grpc::ClientContext context;
+  const auto stream = peer.fields().EvaluateStream(&context);
+  v1::EvaluateStreamRequest request;
+  *request.mutable_scene() = inlined(Ball().scene());
+  *request.mutable_points() = points_tensor(std::span<const float>(points_around(Ball(), 1, 10)));
+  ASSERT_TRUE(stream->Write(request));
+  v1::EvaluateResponse response;
+  ASSERT_TRUE(stream->Read(&response));
+  daemon.stop();
+  EXPECT_FALSE(stream->Finish().ok());
+}
+
+TEST(Lifecycle, ASecondSignalEndsItAtOnce) {
+  Daemon daemon({"--drain-seconds", "3600"});
+  Peer peer(daemon.address());
+  grpc::ClientContext context;
+  const auto stream = peer.fields().EvaluateStream(&context);
+  v1::EvaluateStreamRequest request;
+  *request.mutable_scene() = inlined(Ball().scene());
+  *request.mutable_points() = points_tensor(std::span<const float>(points_around(Ball(), 1, 10)));
+  ASSERT_TRUE(stream->Write(request));
+  v1::EvaluateResponse response;
+  ASSERT_TRUE(stream->Read(&response));
+  daemon.process().signal(SIGTERM);
+  ASSERT_NE(daemon.process().wait_for_error_line("finishing running requests"), "");
+  daemon.process().signal(SIGTERM);
+  EXPECT_EQ(daemon.process().wait(), 128 + SIGTERM);
+  daemon.kill();
+}
+
+TEST(Lifecycle, SigintStopsItToo) {
+  Daemon daemon;
+  daemon.process().signal(SIGINT);
+  daemon.expect_orderly_end();
+}
+
+TEST(Lifecycle, HelpListsEveryOptionWithItsDefault) {
+  const Outcome outcome = run(daemon_command({"--help"}));
+  EXPECT_EQ(outcome.exit_code, 0);
+  const struct {
+    const char *option, *value;
+  } kOptions[] = {{"--listen", "127.0.0.1:50051"}, {"--data-dir", ""},          {"--device", ""},
+                  {"--validation", ""},            {"--log-level", "info"},      {"--drain-seconds", "10"},
+                  {"--max-threads", "256"},        {"--max-nodes", "1000000"},   {"--max-primitives", "1000000"},
+                  {"--max-scenes", "1000"},        {"--max-message-bytes", "67108864"},
+                  {"--max-points-per-message", "1048576"},
+                  {"--max-grid-points", "4294967296"}, {"--max-mesh-cells", "33554432"}, {"--config", ""},
+                  {"--version", ""}};
+  for (const auto& [option, value] : kOptions) {
+    const std::size_t at = outcome.output.find(option);
+    ASSERT_NE(at, std::string::npos) << option;
+    EXPECT_NE(outcome.output.substr(at, outcome.output.find('\n', at) - at).find(value), std::string::npos) << option;
+  }
+  EXPECT_EQ(run(daemon_command({"--version"})).output.substr(0, 10), "isofieldd ");
+}
+
+TEST(Lifecycle, WrongUsageIsTold) {
+  for (const std::vector<std::string>& flags : std::vector<std::vector<std::string>>{{"--nonsense"},
+                                                                                     {"--listen"},
+                                                                                     {"surplus"},
+                                                                                     {"--log-level", "loud"},
+                                                                                     {"--drain-seconds", "-1"},
+                                                                                     {"--max-nodes", "many"},
+                                                                                     {"--max-mesh-cells", "0"},
+                                                                                     {"--config", "/none.toml"}}) {
+    const Outcome outcome = run(daemon_command(flags));
+    EXPECT_EQ(outcome.exit_code, 2) << flags[0];
+    // A file that is missing is named by its path.
+    expect_in(outcome.errors, {flags[0] == "--config" ? flags[1] : flags[0]});
+  }
+}
+
+TEST(Lifecycle, DevicesAndFoldersThatCannotBeUsedAreRefused) {
+  const TemporaryDirectory directory;
+  write_file(directory.path("file"), "");
+  Outcome outcome = run(daemon_command({"--listen", "unix:" + directory.path("s"), "--device", "no such device"}));
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_in(outcome.errors, {"no such device"});
+  outcome = run(daemon_command({"--listen", "unix:" + directory.path("s"), "--data-dir", directory.path("file/x")}));
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_in(outcome.errors, {"--data-dir", directory.path("file/x")});
+}
+
+TEST(Lifecycle, FlagsOverrideTheEnvironmentAndThatTheFile) {
+  const TemporaryDirectory directory;
+  write_file(directory.path("isofieldd.toml"), "max-nodes = 1001\nmax-scenes = 11\nmax-grid-points = 5001\n");
+  ::setenv("ISOFIELD_MAX_SCENES", "12", 1);
+  ::setenv("ISOFIELD_MAX_GRID_POINTS", "5002", 1);
+  Daemon daemon({"--config", directory.path("isofieldd.toml"), "--max-grid-points", "5003"});
+  ::unsetenv("ISOFIELD_MAX_SCENES");
+  ::unsetenv("ISOFIELD_MAX_GRID_POINTS");
+  Peer peer(daemon.address());
+  const v1::Limits limits = peer.info().limits();
+  EXPECT_EQ(limits.max_nodes(), 1001u);
+  EXPECT_EQ(limits.max_scenes(), 12u);
+  EXPECT_EQ(limits.max_grid_points(), 5003u);
+}
+
+TEST(Lifecycle, CompiledShadersOutliveTheProcess) {
+  const TemporaryDirectory directory;
+  {
+    Daemon daemon({"--data-dir", directory.path("data/of/isofield")});
+    expect_serving(daemon.address());
+  }
+  EXPECT_TRUE(std::filesystem::is_directory(directory.path("data/of/isofield/shader-cache")));
+}
+
+}  // namespace
+}  // namespace isofield::integration_test

@@ -1,0 +1,179 @@
+// MeshService: what a request may state, determinism, and a cost that follows the surface.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "integration/ball.h"
+#include "integration/daemon.h"
+#include "integration/peer.h"
+#include "support/mesh_check.h"
+#include "support/random_scene.h"
+#include "support/scene_text.h"
+
+namespace isofield::integration_test {
+namespace {
+
+class Mesh : public testing::Test {
+ protected:
+  ReceivedMesh mesh(const v1::MeshRequest& request) {
+    ReceivedMesh received;
+    EXPECT_TRUE(ok(peer_.mesh(request, &received)));
+    return received;
+  }
+  static void expect_sound(const ReceivedMesh& mesh) {
+    const test_support::MeshReport report = test_support::check_mesh(mesh.positions, mesh.triangles);
+    EXPECT_TRUE(report.sound()) << report.text();
+    EXPECT_EQ(report.unused_vertices, 0u);
+  }
+
+  Ball ball_;
+  Peer peer_{shared_daemon().address()};
+};
+
+TEST_F(Mesh, OfABallIsTheBall) {
+  v1::SceneSummary summary;
+  ASSERT_TRUE(ok(peer_.put("ball", ball_.scene(), &summary)));
+  const ReceivedMesh received = mesh(mesh_request(named("ball"), 0.02));
+  expect_sound(received);
+  EXPECT_EQ(received.summary.cell_size(), 0.02);
+  EXPECT_EQ(received.summary.scene_version(), summary.version());
+  EXPECT_GT(received.summary.cells(), 0u);
+  EXPECT_GE(received.summary.seconds(), 0);
+  double worst_distance = 0, worst_turn = 0;
+  ASSERT_EQ(received.normals.size(), received.positions.size());
+  for (std::size_t v = 0; v < received.positions.size(); v += 3) {
+    const float* const p = &received.positions[v];
+    const std::array<double, 3> r{p[0] - ball_.center[0], p[1] - ball_.center[1], p[2] - ball_.center[2]};
+    const double distance = std::hypot(r[0], r[1], r[2]);
+    worst_distance = std::max(worst_distance, std::abs(distance - ball_.radius));
+    for (int a = 0; a < 3; ++a) {
+      worst_turn = std::max(worst_turn, std::abs(received.normals[v + a] - r[a] / distance));
+    }
+  }
+  EXPECT_LE(worst_distance, 0.01 * 0.02);
+  EXPECT_LE(worst_turn, 1e-3);
+  EXPECT_TRUE(ok(peer_.remove("ball")));
+}
+
+TEST_F(Mesh, OfTheSameRequestIsTheSameBytes) {
+  const v1::Scene scene = test_support::random_scene(12, {.nodes = 80});
+  const v1::MeshRequest request = mesh_request(inlined(scene), 0.04);
+  const ReceivedMesh first = mesh(request), second = mesh(request);
+  expect_sound(first);
+  EXPECT_EQ(first.triangles, second.triangles);
+  EXPECT_EQ(first.positions, second.positions);
+  EXPECT_EQ(first.normals, second.normals);
+  EXPECT_EQ(first.summary.cells(), second.summary.cells());
+  // Another daemon, other scenes before it: still the same.
+  Daemon daemon;
+  Peer other(daemon.address());
+  ReceivedMesh third;
+  ASSERT_TRUE(ok(other.mesh(request, &third)));
+  EXPECT_EQ(first.triangles, third.triangles);
+  EXPECT_EQ(first.positions, third.positions);
+  EXPECT_EQ(first.normals, third.normals);
+}
+
+TEST_F(Mesh, CanGoWithoutNormals) {
+  v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.1);
+  const ReceivedMesh with = mesh(request);
+  request.set_omit_normals(true);
+  const ReceivedMesh without = mesh(request);
+  EXPECT_TRUE(without.normals.empty());
+  EXPECT_EQ(without.positions, with.positions);
+  EXPECT_EQ(without.triangles, with.triangles);
+}
+
+TEST_F(Mesh, CellsAreCountedAlongTheLongestEdge) {
+  v1::MeshRequest request;
+  *request.mutable_scene() = inlined(ball_.scene());
+  request.set_resolution(60);
+  EXPECT_NEAR(mesh(request).summary.cell_size(), 3.0 / 60, 1e-6);
+  for (const double x : {-2.0, -2.0, -2.0}) request.add_bounds_min(x);
+  for (const double x : {4.0, 2.0, 2.0}) request.add_bounds_max(x);
+  EXPECT_NEAR(mesh(request).summary.cell_size(), 0.1, 1e-12);
+}
+
+TEST_F(Mesh, WithoutACellSizeTheServerChoosesOne) {
+  v1::MeshRequest request;
+  *request.mutable_scene() = inlined(ball_.scene());
+  const ReceivedMesh received = mesh(request);
+  expect_sound(received);
+  EXPECT_GT(received.summary.cell_size(), 0);
+  EXPECT_LE(received.summary.cell_size(), 3.0 / 128 * 1.0001);
+  EXPECT_LE(received.summary.cells(), 1u << 22);
+}
+
+TEST_F(Mesh, IsCappedAtStatedBounds) {
+  v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.05);
+  for (const double x : {-3.0, -3.0, -3.0}) request.add_bounds_min(x);
+  for (const double x : {0.25, 3.0, 3.0}) request.add_bounds_max(x);
+  const ReceivedMesh received = mesh(request);
+  expect_sound(received);
+  for (std::size_t v = 0; v < received.positions.size(); v += 3) ASSERT_LE(received.positions[v], 0.25f);
+  const double volume = test_support::check_mesh(received.positions, received.triangles).volume;
+  EXPECT_NEAR(volume, 2.0 / 3 * M_PI, 0.2);
+}
+
+TEST_F(Mesh, FollowsTheIsoValue) {
+  v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.05);
+  double last = 1e9;
+  for (const double iso : {0.05, 0.3, 0.5, 0.8}) {
+    request.set_iso(iso);
+    const ReceivedMesh received = mesh(request);
+    expect_sound(received);
+    const double volume = test_support::check_mesh(received.positions, received.triangles).volume;
+    EXPECT_LT(volume, last);
+    last = volume;
+  }
+}
+
+TEST_F(Mesh, OfNothingIsEmpty) {
+  const v1::Scene apart = test_support::scene_of_nodes(R"(
+    {"name": "a", "sphere": {"radius": 1, "range": 1}},
+    {"name": "b", "sphere": {"center": [9, 0, 0], "radius": 1, "range": 1}},
+    {"min": {"children": ["a", "b"]}})");
+  EXPECT_TRUE(mesh(mesh_request(inlined(apart), 0.1)).triangles.empty());
+  v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.1);
+  for (const double x : {50.0, 50.0, 50.0}) request.add_bounds_min(x);
+  for (const double x : {51.0, 51.0, 51.0}) request.add_bounds_max(x);
+  EXPECT_TRUE(mesh(request).triangles.empty());
+  request.clear_cells();
+  EXPECT_TRUE(mesh(request).triangles.empty()) << "with a cell size of the server's choice";
+}
+
+TEST_F(Mesh, ReportsProgressThatNeverFalls) {
+  const ReceivedMesh received = mesh(mesh_request(inlined(ball_.scene()), 0.004));
+  EXPECT_FALSE(received.progress.empty());
+  for (std::size_t i = 0; i < received.progress.size(); ++i) {
+    EXPECT_GE(received.progress[i], i == 0 ? 0 : received.progress[i - 1]);
+    EXPECT_LE(received.progress[i], 1);
+  }
+}
+
+TEST_F(Mesh, CostFollowsTheSurface) {
+  // Points that are small against their box; the cells that the server looks at say what they cost.
+  const auto cells_of_points = [&](int count) {
+    test_support::Random random(11);
+    v1::Scene scene;
+    v1::Node all;
+    for (int i = 0; i < count; ++i) {
+      auto* s = scene.add_nodes()->mutable_sphere();
+      for (int a = 0; a < 3; ++a) s->add_center(random.number(0, 100));
+      s->set_radius(0.4542020 * 0.5);
+      s->set_range(0.5457980 * 0.5);
+      all.mutable_sum()->add_children(test_support::place(i));
+    }
+    *scene.add_nodes() = all;
+    const ReceivedMesh received = mesh(mesh_request(inlined(scene), 0.05));
+    expect_sound(received);
+    return static_cast<double>(received.summary.cells()) / count;
+  };
+  const double few = cells_of_points(10), many = cells_of_points(1000);
+  std::cout << "cells a primitive: " << few << " for 10 points, " << many << " for 1,000\n";
+  EXPECT_LE(many, 1.5 * few);
+}
+
+}  // namespace
+}  // namespace isofield::integration_test

@@ -1,0 +1,79 @@
+// A client made of the generated stubs alone, and what tests say with it.
+#pragma once
+
+#include <grpcpp/channel.h>
+#include <grpcpp/client_context.h>
+#include <grpcpp/support/status.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "isofield/v1/field_service.grpc.pb.h"
+#include "isofield/v1/info_service.grpc.pb.h"
+#include "isofield/v1/mesh_service.grpc.pb.h"
+#include "isofield/v1/scene_service.grpc.pb.h"
+
+namespace isofield::integration_test {
+
+// A mesh as it came over the wire.
+struct ReceivedMesh {
+  std::vector<float> positions, normals;
+  std::vector<std::uint32_t> triangles;
+  v1::MeshSummary summary;
+  std::vector<double> progress;
+};
+
+// Connected to one daemon, over a connection of its own. Every method is one request; any number of threads.
+class Peer {
+ public:
+  explicit Peer(const std::string& address);
+
+  grpc::Status put(const std::string& name, const v1::Scene& scene, v1::SceneSummary* summary = nullptr);
+  grpc::Status put(const v1::PutSceneRequest& request, v1::SceneSummary* summary = nullptr);
+  grpc::Status get(const std::string& name, v1::GetSceneResponse* response);
+  grpc::Status remove(const std::string& name);
+  std::vector<v1::SceneSummary> list();
+  grpc::Status edit(const v1::EditParametersRequest& request, v1::SceneSummary* summary = nullptr);
+  v1::GetInfoResponse info();
+
+  grpc::Status evaluate(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient, std::vector<float>* out);
+  grpc::Status evaluate(const v1::EvaluateRequest& request, v1::EvaluateResponse* response);
+  // All messages of a stream are written before its answers are read: for short ones.
+  grpc::Status evaluate_stream(const std::vector<v1::EvaluateStreamRequest>& requests,
+                               std::vector<v1::EvaluateResponse>* responses);
+  // The answers joined; checks their order and shape.
+  grpc::Status evaluate_grid(const v1::EvaluateGridRequest& request, std::vector<float>* out,
+                             std::size_t* messages = nullptr);
+  grpc::Status mesh(const v1::MeshRequest& request, ReceivedMesh* mesh);
+
+  const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
+  v1::FieldService::Stub& fields() { return *fields_; }
+  v1::MeshService::Stub& meshes() { return *meshes_; }
+
+ private:
+  std::shared_ptr<grpc::Channel> channel_;
+  std::unique_ptr<v1::SceneService::Stub> scenes_;
+  std::unique_ptr<v1::FieldService::Stub> fields_;
+  std::unique_ptr<v1::MeshService::Stub> meshes_;
+  std::unique_ptr<v1::InfoService::Stub> infos_;
+};
+
+v1::SceneRef named(const std::string& name);
+v1::SceneRef inlined(const v1::Scene& scene);
+v1::Tensor points_tensor(std::span<const float> xyz);
+v1::Tensor points_tensor(std::span<const double> xyz);
+std::vector<float> floats_of(const v1::Tensor& tensor);
+v1::MeshRequest mesh_request(const v1::SceneRef& scene, double cell_size);
+
+// For EXPECT_TRUE(ok(...)), which prints what went wrong.
+testing::AssertionResult ok(const grpc::Status& status);
+// The code, and that the text names all of these.
+void expect_refused(const grpc::Status& status, grpc::StatusCode code, const std::vector<std::string>& parts);
+// A daemon that is alive and serves another client.
+void expect_serving(const std::string& address);
+
+}  // namespace isofield::integration_test

@@ -1,0 +1,59 @@
+// Child processes: started, fed, watched and ended.
+#pragma once
+
+#include <sys/types.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace isofield::integration_test {
+
+// Owns a child process. What it writes is read all the time, so that it never waits for us. One thread may use it.
+class Process {
+ public:
+  // The standard input is a file, by default an empty one.
+  explicit Process(const std::vector<std::string>& command, const std::string& input_path = "/dev/null");
+  // Kills it where it still runs.
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  pid_t pid() const { return pid_; }
+  void signal(int number);
+  bool is_running();
+  // The exit code, or 128 + the signal that ended it.
+  int wait();
+  // Blocks until it has written a line that holds `text` to standard error, and returns the line; "" when it has closed
+  // the stream without one.
+  std::string wait_for_error_line(const std::string& text);
+  // All that it has written so far.
+  std::string output() const;
+  std::string errors() const;
+
+ private:
+  struct Stream {
+    int descriptor = -1;
+    std::string text;
+    bool is_closed = false;
+    std::thread reader;
+  };
+  void read_all(Stream& stream);
+
+  pid_t pid_ = -1;
+  int exit_code_ = -1;  // -1: not waited for
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  Stream output_, errors_;
+};
+
+struct Outcome {
+  int exit_code = 0;
+  std::string output, errors;
+};
+// Runs a command to its end.
+Outcome run(const std::vector<std::string>& command, const std::string& input_path = "/dev/null");
+
+}  // namespace isofield::integration_test

@@ -1,0 +1,130 @@
+"""Evaluates and meshes a sphere from Python with nothing but the .proto files, against NumPy's own formulas.
+
+Usage: python_client_test.py ISOFIELDD PROTOC PROTO_FOLDER
+"""
+
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+
+import grpc
+import numpy as np
+
+CENTER = np.array([0.25, -0.5, 0.125])
+RADIUS, RANGE = 1.0, 0.5
+R0 = np.sqrt(1 - 2 ** (-1 / 3))
+
+
+def generate(protoc, protos, out):
+    """Makes modules of the .proto files, as a user does."""
+    files = sorted(pathlib.Path(protos).glob("isofield/v1/*.proto"))
+    subprocess.run([protoc, f"-I{protos}", f"--python_out={out}", f"--grpc_out={out}",
+                    "--plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin", *map(str, files)], check=True)
+    sys.path.insert(0, out)
+
+
+def start_daemon(isofieldd, address):
+    daemon = subprocess.Popen([isofieldd, "--listen", address, "--validation"], stderr=subprocess.PIPE, text=True)
+    for line in daemon.stderr:
+        if "listening on" in line:
+            return daemon
+    sys.exit(f"isofieldd does not start: exit code {daemon.wait()}")
+
+
+def field(points):
+    """(1 - r^2)^3 with r = clamp(r0 + (1 - r0) d / range, 0, 1), and its gradient."""
+    offset = points - CENTER
+    distance = np.linalg.norm(offset, axis=1)
+    r = np.clip(R0 + (1 - R0) * (distance - RADIUS) / RANGE, 0, 1)
+    slope = np.where((r > 0) & (r < 1), -6 * r * (1 - r * r) ** 2 * (1 - R0) / RANGE, 0)
+    return (1 - r * r) ** 3, slope[:, None] * offset / distance[:, None]
+
+
+def array(tensor):
+    dtype = {1: "<f4", 2: "<f8", 3: "<u4"}[tensor.dtype]
+    return np.frombuffer(tensor.data, dtype).reshape(tuple(tensor.shape))
+
+
+def check_evaluation(channel, reference):
+    from isofield.v1 import field_service_pb2 as fields
+    from isofield.v1 import field_service_pb2_grpc as services
+    from isofield.v1 import scene_pb2
+
+    points = np.random.default_rng(1).uniform(-2, 2, (20000, 3)).astype("<f4")
+    tensor = scene_pb2.Tensor(dtype=scene_pb2.Tensor.FLOAT32, shape=points.shape, data=points.tobytes())
+    request = fields.EvaluateRequest(scene=reference, quantity=fields.VALUE_AND_GRADIENT, points=tensor)
+    result = array(services.FieldServiceStub(channel).Evaluate(request).result)
+    value, gradient = field(points.astype(float))
+    assert result.shape == (20000, 4), result.shape
+    value_error = np.abs(result[:, 0] - value).max()
+    gradient_error = np.linalg.norm(result[:, 1:] - gradient, axis=1).max() / np.linalg.norm(gradient, axis=1).max()
+    print(f"20,000 points: errors {value_error:.2g} of values, {gradient_error:.2g} of gradients")
+    assert value_error <= 2e-5 and gradient_error <= 1e-3
+
+    tensor.data = tensor.data[:-1]
+    try:
+        services.FieldServiceStub(channel).Evaluate(
+            fields.EvaluateRequest(scene=reference, points=tensor))
+        raise AssertionError("a cut buffer was accepted")
+    except grpc.RpcError as error:
+        assert error.code() == grpc.StatusCode.INVALID_ARGUMENT and "239999 bytes" in error.details(), error
+
+
+def check_mesh(channel, reference):
+    from isofield.v1 import mesh_service_pb2 as meshes
+    from isofield.v1 import mesh_service_pb2_grpc as services
+
+    cell = 0.05
+    summary, positions, normals, triangles = None, [], [], []
+    for response in services.MeshServiceStub(channel).Mesh(meshes.MeshRequest(scene=reference, cell_size=cell)):
+        if response.HasField("summary"):
+            summary = response.summary
+        if response.HasField("part"):
+            for name, parts in ("positions", positions), ("normals", normals), ("triangles", triangles):
+                if response.part.HasField(name):
+                    parts.append(array(getattr(response.part, name)))
+    positions, normals, triangles = map(np.concatenate, (positions, normals, triangles))
+    assert (len(positions), len(triangles)) == (summary.vertices, summary.triangles)
+    offset = positions.astype(float) - CENTER
+    distance = np.linalg.norm(offset, axis=1)
+    assert np.abs(distance - RADIUS).max() <= 0.01 * cell
+    assert np.abs(normals - offset / distance[:, None]).max() <= 1e-3
+    # Closed: every edge is there once in each direction. Outward: the volume is the ball's.
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    there, back = (np.sort(e[:, 0].astype(np.uint64) << np.uint64(32) | e[:, 1]) for e in (edges, edges[:, ::-1]))
+    assert np.array_equal(there, back) and len(np.unique(there)) == len(there)
+    a, b, c = (positions[triangles[:, i]].astype(float) for i in range(3))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+    print(f"{len(positions)} vertices, {len(triangles)} triangles, volume {volume:.4f}")
+    assert abs(volume - 4 / 3 * np.pi) < 0.02
+
+
+def main():
+    isofieldd, protoc, protos = sys.argv[1:]
+    with tempfile.TemporaryDirectory(prefix="isofield-") as folder:
+        generate(protoc, protos, folder)
+        from isofield.v1 import scene_pb2
+        from isofield.v1 import scene_service_pb2 as scenes
+        from isofield.v1 import scene_service_pb2_grpc as services
+
+        address = f"unix:{folder}/s"
+        daemon = start_daemon(isofieldd, address)
+        try:
+            with grpc.insecure_channel(address) as channel:
+                ball = scene_pb2.Node(name="ball", sphere=scene_pb2.Sphere(center=CENTER, radius=RADIUS, range=RANGE))
+                catalog = services.SceneServiceStub(channel)
+                catalog.PutScene(scenes.PutSceneRequest(name="ball", scene=scene_pb2.Scene(nodes=[ball])))
+                reference = scene_pb2.SceneRef(name="ball")
+                check_evaluation(channel, reference)
+                check_mesh(channel, reference)
+        finally:
+            daemon.send_signal(signal.SIGTERM)
+            _, log = daemon.communicate()
+    assert daemon.returncode == 0, f"exit code {daemon.returncode}\n{log}"
+    assert "Vulkan validation:" not in log, log
+
+
+if __name__ == "__main__":
+    main()
