@@ -66,7 +66,8 @@ TEST_F(BadRequest, PointsThatAreNotFiniteAreNamed) {
   for (const float bad : {kNaN, kInfinity, -kInfinity}) {
     std::vector<float> xyz(3 * 1000, 0.5f);
     xyz[3 * 637 + 1] = bad;
-    expect_points_refused(request_at(xyz), StatusCode::INVALID_ARGUMENT, {"points[637].y", absl::StrCat(bad), "finite"});
+    expect_points_refused(request_at(xyz), StatusCode::INVALID_ARGUMENT,
+                          {"points[637].y", absl::StrCat(bad), "finite"});
   }
   std::vector<double> wide(3 * 10, 0.5);
   wide[29] = 1e300;  // finite, but not as a float32
@@ -134,7 +135,8 @@ TEST_F(BadRequest, UnknownScenesAreNamed) {
 }
 
 TEST_F(BadRequest, RequestsWithoutASceneAreRefused) {
-  expect_refused(peer_.evaluate(v1::SceneRef(), kFive, false, nullptr), StatusCode::INVALID_ARGUMENT, {"scene", "name"});
+  expect_refused(peer_.evaluate(v1::SceneRef(), kFive, false, nullptr), StatusCode::INVALID_ARGUMENT,
+                 {"scene", "name"});
   ReceivedMesh mesh;
   expect_refused(peer_.mesh(v1::MeshRequest(), &mesh), StatusCode::INVALID_ARGUMENT, {"scene", "name"});
   expect_refused(peer_.evaluate_stream({v1::EvaluateStreamRequest()}, nullptr), StatusCode::INVALID_ARGUMENT,

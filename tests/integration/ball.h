@@ -18,7 +18,8 @@ struct Ball {
   // (1 - r^2)^3 with r = clamp(r0 + (1 - r0) d / range, 0, 1), r0 = sqrt(1 - 2^(-1/3)); and its gradient.
   double value(const float* point) const;
   std::array<double, 3> gradient(const float* point) const;
-  // The largest errors of results [n, 1] or [n, 4] at points [n, 3]; of gradients relative to the steepest one there is.
+  // The largest errors of results [n, 1] or [n, 4] at points [n, 3]; of gradients relative to the steepest one there
+  // is.
   struct Errors {
     double value = 0, gradient = 0;
   };

@@ -78,7 +78,8 @@ TEST_F(Command, KeepsScenesOnTheServer) {
 TEST_F(Command, EvaluatesAFileOfPoints) {
   const std::vector<float> xyz = points_around(ball_, 1, 100'000);
   std::string csv = "x,y,z\n";
-  for (std::size_t i = 0; i < xyz.size(); i += 3) absl::StrAppendFormat(&csv, "%.9g,%.9g,%.9g\n", xyz[i], xyz[i + 1], xyz[i + 2]);
+  for (std::size_t i = 0; i < xyz.size(); i += 3)
+    absl::StrAppendFormat(&csv, "%.9g,%.9g,%.9g\n", xyz[i], xyz[i + 1], xyz[i + 2]);
   write_file(path("points.csv"), csv);
   const Outcome outcome =
       isofield({"eval", path("ball.json"), "--points", path("points.csv"), "--gradient", "-o", path("out.csv")});
@@ -94,8 +95,10 @@ TEST_F(Command, EvaluatesAFileOfPoints) {
     for (int c = 0; c < 7; ++c) {
       float number = 0;
       ASSERT_TRUE(absl::SimpleAtof(cells[c], &number));
-      if (c >= 3) results.push_back(number);
-      else ASSERT_EQ(number, xyz[i + c]);
+      if (c >= 3)
+        results.push_back(number);
+      else
+        ASSERT_EQ(number, xyz[i + c]);
     }
   }
   ASSERT_EQ(results.size(), xyz.size() / 3 * 4);
@@ -125,8 +128,8 @@ TEST_F(Command, MeshesIntoEveryFormat) {
 }
 
 TEST_F(Command, MeshesAnEmptySurfaceIntoAFileThatViewersOpen) {
-  const Outcome outcome = isofield(
-      {"mesh", path("ball.json"), "--cell", "0.1", "--bounds", "50,50,50,51,51,51", "-o", path("empty.glb")});
+  const Outcome outcome =
+      isofield({"mesh", path("ball.json"), "--cell", "0.1", "--bounds", "50,50,50,51,51,51", "-o", path("empty.glb")});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.errors.find("empty"), std::string::npos);
   EXPECT_TRUE(read_glb(path("empty.glb")).triangles.empty());
@@ -145,7 +148,8 @@ TEST_F(Command, ExitCodesAndTextsTellWhatIsWrong) {
   expect_exit(4, {"put", path("empty")}, {path("empty")});
   expect_exit(4, {"put", directory_.path("")}, {directory_.path("")});
   expect_exit(4, {"mesh", path("ball.json"), "--cell", "0.1", "-o", path("none/m.glb")}, {"none/m.glb"});
-  expect_exit(1, {"mesh", path("ball.json"), "--cell", "1e-9", "-o", path("m.glb")}, {"cell_size", "smallest cell size"});
+  expect_exit(1, {"mesh", path("ball.json"), "--cell", "1e-9", "-o", path("m.glb")},
+              {"cell_size", "smallest cell size"});
   expect_exit(1, {"mesh", path("ball.json"), "--iso", "2", "-o", path("m.glb")}, {"iso = 2"});
   expect_exit(2, {"mesh", path("ball.json"), "--cell", "0", "-o", path("m.glb")}, {"--cell"});
   expect_exit(2, {"mesh", path("ball.json"), "-o", path("m.xyz")}, {".glb"});

@@ -25,7 +25,9 @@ class DaemonEnvironment : public testing::Environment {
 [[maybe_unused]] testing::Environment* const environment = testing::AddGlobalTestEnvironment(new DaemonEnvironment);
 
 // Machines without the layer can run the tests all the same, but not by default.
-bool with_validation() { return std::getenv("ISOFIELD_TESTS_WITHOUT_VALIDATION") == nullptr; }
+bool with_validation() {
+  return std::getenv("ISOFIELD_TESTS_WITHOUT_VALIDATION") == nullptr;
+}
 
 }  // namespace
 
@@ -53,7 +55,9 @@ Daemon::Daemon(const std::vector<std::string>& flags, const std::string& listen)
   address_ = line.substr(line.find(kListening) + sizeof(kListening) - 1);
 }
 
-Daemon::~Daemon() { stop(); }
+Daemon::~Daemon() {
+  stop();
+}
 
 void Daemon::stop() {
   if (is_stopped_) return;

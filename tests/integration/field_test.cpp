@@ -160,9 +160,9 @@ TEST(Field, GridsAreTheSameAsTheirPoints) {
   for (std::uint64_t k = 0; k < counts[2]; ++k) {
     for (std::uint64_t j = 0; j < counts[1]; ++j) {
       for (std::uint64_t i = 0; i < counts[0]; ++i) {
-        xyz.insert(xyz.end(), {origin[0] + spacing[0] * static_cast<float>(i),
-                               origin[1] + spacing[1] * static_cast<float>(j),
-                               origin[2] + spacing[2] * static_cast<float>(k)});
+        xyz.insert(xyz.end(),
+                   {origin[0] + spacing[0] * static_cast<float>(i), origin[1] + spacing[1] * static_cast<float>(j),
+                    origin[2] + spacing[2] * static_cast<float>(k)});
       }
     }
   }
@@ -200,8 +200,8 @@ TEST(Field, NoMessageOfAGridIsLargerThanAClientTakes) {
   ASSERT_TRUE(client.ok());
   const Ball ball;
   // Layers of as many points as one message may hold.
-  const auto grid = client->evaluate_grid(inline_scene(ball.scene()), {-1.5, -2, -0.875}, {0.0029296875, 0.0029296875, 0.5},
-                                          {1024, 1024, 5}, true);
+  const auto grid = client->evaluate_grid(inline_scene(ball.scene()), {-1.5, -2, -0.875},
+                                          {0.0029296875, 0.0029296875, 0.5}, {1024, 1024, 5}, true);
   ASSERT_TRUE(grid.ok()) << grid.status();
   EXPECT_EQ(grid->values.size(), 1024u * 1024 * 5 * 4);
 }

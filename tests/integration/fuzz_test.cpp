@@ -20,9 +20,9 @@ using test_support::Random;
 
 double odd_number(Random& random) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  static const double kOdd[] = {0,     -0.0,  1,    -1,   0.5,   1e-9,  1e-10, 1e-300, 5e-324, 1e9,      1.0000001e9, 1e19,
-                                1e39,  1e300, 45,   90,   180,   64,    1e-5,  -1e9,   360,    kInfinity, -kInfinity,
-                                std::nan("")};
+  static const double kOdd[] = {0,      -0.0, 1,           -1,   0.5,  1e-9,      1e-10,      1e-300,
+                                5e-324, 1e9,  1.0000001e9, 1e19, 1e39, 1e300,     45,         90,
+                                180,    64,   1e-5,        -1e9, 360,  kInfinity, -kInfinity, std::nan("")};
   return random.chance(0.5) ? kOdd[random.integer(0, std::size(kOdd) - 1)] : random.number(-3, 3);
 }
 

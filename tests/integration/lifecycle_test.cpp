@@ -13,7 +13,8 @@ namespace isofield::integration_test {
 namespace {
 
 void expect_in(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in: " << text;
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in: " << text;
 }
 
 TEST(Lifecycle, ServesOnAFreePortOfTcp) {
@@ -60,8 +61,8 @@ TEST(Lifecycle, AddressesThatCannotBeServedAreRefused) {
   for (const std::string& address :
        {std::string("unix:"), "unix:" + std::string(200, 'x'), "unix:" + directory.path("none/s"),
         "unix:" + directory.path("file"), std::string("127.0.0.1"), std::string("203.0.113.7:5000"),
-        std::string("127.0.0.1:99999"), std::string("127.0.0.1:http"), std::string("127.0.0.1:-1"), std::string(":5000"), std::string("nonsense"),
-        std::string("unix-abstract:name"), std::string("")}) {
+        std::string("127.0.0.1:99999"), std::string("127.0.0.1:http"), std::string("127.0.0.1:-1"),
+        std::string(":5000"), std::string("nonsense"), std::string("unix-abstract:name"), std::string("")}) {
     const Outcome outcome = run(daemon_command({"--listen", address}));
     EXPECT_EQ(outcome.exit_code, 1) << address;
     expect_in(outcome.errors, {"isofieldd: ", "--listen"});
@@ -134,12 +135,21 @@ TEST(Lifecycle, HelpListsEveryOptionWithItsDefault) {
   EXPECT_EQ(outcome.exit_code, 0);
   const struct {
     const char *option, *value;
-  } kOptions[] = {{"--listen", "127.0.0.1:50051"}, {"--data-dir", ""},          {"--device", ""},
-                  {"--validation", ""},            {"--log-level", "info"},      {"--drain-seconds", "10"},
-                  {"--max-threads", "256"},        {"--max-nodes", "1000000"},   {"--max-primitives", "1000000"},
-                  {"--max-scenes", "1000"},        {"--max-message-bytes", "67108864"},
+  } kOptions[] = {{"--listen", "127.0.0.1:50051"},
+                  {"--data-dir", ""},
+                  {"--device", ""},
+                  {"--validation", ""},
+                  {"--log-level", "info"},
+                  {"--drain-seconds", "10"},
+                  {"--max-threads", "256"},
+                  {"--max-nodes", "1000000"},
+                  {"--max-primitives", "1000000"},
+                  {"--max-scenes", "1000"},
+                  {"--max-message-bytes", "67108864"},
                   {"--max-points-per-message", "1048576"},
-                  {"--max-grid-points", "4294967296"}, {"--max-mesh-cells", "33554432"}, {"--config", ""},
+                  {"--max-grid-points", "4294967296"},
+                  {"--max-mesh-cells", "33554432"},
+                  {"--config", ""},
                   {"--version", ""}};
   for (const auto& [option, value] : kOptions) {
     const std::size_t at = outcome.output.find(option);

@@ -29,7 +29,7 @@ class LocalReference {
 
   const v1::Scene& scene_;
   const double cell_;
-  std::vector<std::array<double, 6>> supports_;  // low and high corners
+  std::vector<std::array<double, 6>> supports_;                  // low and high corners
   std::map<Cell, std::unique_ptr<reference::Evaluator>> parts_;  // null: nothing is near
 };
 

@@ -196,8 +196,12 @@ v1::SceneRef inlined(const v1::Scene& scene) {
   return ref;
 }
 
-v1::Tensor points_tensor(std::span<const float> xyz) { return tensor_of(xyz, v1::Tensor::FLOAT32); }
-v1::Tensor points_tensor(std::span<const double> xyz) { return tensor_of(xyz, v1::Tensor::FLOAT64); }
+v1::Tensor points_tensor(std::span<const float> xyz) {
+  return tensor_of(xyz, v1::Tensor::FLOAT32);
+}
+v1::Tensor points_tensor(std::span<const double> xyz) {
+  return tensor_of(xyz, v1::Tensor::FLOAT64);
+}
 
 std::vector<float> floats_of(const v1::Tensor& tensor) {
   std::vector<float> floats;
@@ -220,7 +224,8 @@ testing::AssertionResult ok(const grpc::Status& status) {
 void expect_refused(const grpc::Status& status, grpc::StatusCode code, const std::vector<std::string>& parts) {
   EXPECT_EQ(status.error_code(), code) << status.error_message();
   for (const std::string& part : parts) {
-    EXPECT_NE(status.error_message().find(part), std::string::npos) << "'" << part << "' in: " << status.error_message();
+    EXPECT_NE(status.error_message().find(part), std::string::npos)
+        << "'" << part << "' in: " << status.error_message();
   }
 }
 

@@ -1,4 +1,5 @@
-// Calls by name with messages as bytes: for services whose .proto is not ours, and for messages that no stub would send.
+// Calls by name with messages as bytes: for services whose .proto is not ours, and for messages that no stub would
+// send.
 #pragma once
 
 #include <grpcpp/channel.h>

@@ -12,14 +12,18 @@ namespace {
 
 using grpc::StatusCode;
 
-// PrintTo keeps GoogleTest from printing bytes.
 struct BadScene {
   std::string what, nodes;
   std::vector<std::string> parts;
 };
-void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.what; }
+// GoogleTest would print its bytes.
+void PrintTo(const BadScene& scene, std::ostream* out) {
+  *out << scene.what;
+}
 
-std::string ball(const std::string& fields) { return absl::StrCat(R"({"name": "ball", "sphere": {)", fields, "}}"); }
+std::string ball(const std::string& fields) {
+  return absl::StrCat(R"({"name": "ball", "sphere": {)", fields, "}}");
+}
 std::string primitive(const std::string& kind, const std::string& fields) {
   return absl::StrCat(R"({"name": "part", ")", kind, R"(": {)", fields, "}}");
 }
@@ -27,8 +31,8 @@ std::string over_ball(const std::string& kind, const std::string& fields) {
   return absl::StrCat(ball(R"("radius": 1, "range": 1)"), ", ", R"({"name": "top", ")", kind, R"(": {)", fields, "}}");
 }
 std::string opening(const std::string& fields) {
-  return over_ball("gradient", absl::StrCat(R"("children": ["ball", "ball"], "opening": {"preset": "CAMEL", )", fields,
-                                            "}"));
+  return over_ball("gradient",
+                   absl::StrCat(R"("children": ["ball", "ball"], "opening": {"preset": "CAMEL", )", fields, "}"));
 }
 
 // "What is refused" of a Blob-tree, as far as this version of the contract can say it.
@@ -63,21 +67,26 @@ const BadScene kBadScenes[] = {
     {"SegmentRadius",
      primitive("segment", R"("a": [0,0,0], "b": [1,0,0], "radius_a": 0, "radius_b": 1, "range": 1)"),
      {"part", "radius_a = 0"}},
-    {"SegmentWithoutEnd", primitive("segment", R"("a": [0,0,0], "radius_a": 1, "radius_b": 1, "range": 1)"),
+    {"SegmentWithoutEnd",
+     primitive("segment", R"("a": [0,0,0], "radius_a": 1, "radius_b": 1, "range": 1)"),
      {"part", "b", "3 numbers"}},
     {"BoxHalfSize", primitive("box", R"("half_size": [1, -1, 1], "range": 1)"), {"part", "half_size.y = -1"}},
-    {"BoxRounding", primitive("box", R"("half_size": [1, 1, 1], "rounding": 2, "range": 1)"),
+    {"BoxRounding",
+     primitive("box", R"("half_size": [1, 1, 1], "rounding": 2, "range": 1)"),
      {"part", "rounding = 2", "[0, 1]"}},
-    {"CylinderOfNoLength", primitive("cylinder", R"("a": [1,1,1], "b": [1,1,1], "radius": 1, "range": 1)"),
+    {"CylinderOfNoLength",
+     primitive("cylinder", R"("a": [1,1,1], "b": [1,1,1], "radius": 1, "range": 1)"),
      {"part", "b", "differs"}},
-    {"TorusAxis", primitive("torus", R"("axis": [0,0,0], "major_radius": 2, "minor_radius": 1, "range": 1)"),
+    {"TorusAxis",
+     primitive("torus", R"("axis": [0,0,0], "major_radius": 2, "minor_radius": 1, "range": 1)"),
      {"part", "axis", "not 0"}},
-    {"TorusRadius", primitive("torus", R"("major_radius": -2, "minor_radius": 1, "range": 1)"),
+    {"TorusRadius",
+     primitive("torus", R"("major_radius": -2, "minor_radius": 1, "range": 1)"),
      {"part", "major_radius = -2"}},
     {"EllipsoidAxes", primitive("ellipsoid", R"("semi_axes": [1, 1, 0], "range": 1)"), {"part", "semi_axes.z = 0"}},
-    {"RicciExponent", over_ball("ricci", R"("children": ["ball"], "exponent": 0)"),
-     {"top", "exponent = 0", "[1, 64]"}},
-    {"RicciExponentNotANumber", over_ball("ricci", R"("children": ["ball"], "exponent": "NaN")"),
+    {"RicciExponent", over_ball("ricci", R"("children": ["ball"], "exponent": 0)"), {"top", "exponent = 0", "[1, 64]"}},
+    {"RicciExponentNotANumber",
+     over_ball("ricci", R"("children": ["ball"], "exponent": "NaN")"),
      {"top", "exponent = nan", "[1, 64]"}},
     {"AlphasOutOfOrder", opening(R"("alpha0": 120)"), {"top", "opening.alpha", "120"}},
     {"AlphaBeyond180", opening(R"("alpha2": 181)"), {"top", "opening.alpha2 = 181", "[0, 180]"}},
@@ -88,11 +97,15 @@ const BadScene kBadScenes[] = {
      over_ball("gradient", R"("children": ["ball"], "silhouette": {"kind": "BULGE", "k": 1.5})"),
      {"top", "silhouette.k = 1.5", "[0, 1]"}},
     {"ScaleZero", over_ball("transform", R"("child": "ball", "scale": [1, 0, 1])"), {"top", "scale", "invertible"}},
-    {"MatrixSingular", over_ball("transform", R"("child": "ball", "matrix": [1,2,3,0, 2,4,6,0, 0,0,1,0])"),
+    {"MatrixSingular",
+     over_ball("transform", R"("child": "ball", "matrix": [1,2,3,0, 2,4,6,0, 0,0,1,0])"),
      {"top", "matrix", "condition"}},
-    {"MatrixNotFinite", over_ball("transform", R"("child": "ball", "matrix": [1,0,0,0, 0,1,0,"NaN", 0,0,1,0])"),
+    {"MatrixNotFinite",
+     over_ball("transform", R"("child": "ball", "matrix": [1,0,0,0, 0,1,0,"NaN", 0,0,1,0])"),
      {"top", "matrix.7 = nan"}},
-    {"RotationAxis", over_ball("transform", R"("child": "ball", "rotation": [0,0,0,90])"), {"top", "rotation", "not 0"}},
+    {"RotationAxis",
+     over_ball("transform", R"("child": "ball", "rotation": [0,0,0,90])"),
+     {"top", "rotation", "not 0"}},
 };
 
 class Refusal : public testing::TestWithParam<BadScene> {
@@ -132,10 +145,11 @@ TEST(RefusalByLimit, NamesTheLimit) {
   Daemon daemon({"--max-nodes", "4", "--max-primitives", "3", "--max-message-bytes", "65536"});
   Peer peer(daemon.address());
   const std::string node = R"({"sphere": {"radius": 1, "range": 1}})";
-  expect_refused(peer.put("a", test_support::scene_of_nodes(absl::StrCat(node, ",", node, ",", node, ",", node, ",", node))),
-                 StatusCode::INVALID_ARGUMENT, {"5 nodes", "at most 4"});
-  expect_refused(peer.put("a", test_support::scene_of_nodes(absl::StrCat(
-                                   node, R"(, {"sum": {"children": ["#0", "#0", "#0", "#0"]}})"))),
+  expect_refused(
+      peer.put("a", test_support::scene_of_nodes(absl::StrCat(node, ",", node, ",", node, ",", node, ",", node))),
+      StatusCode::INVALID_ARGUMENT, {"5 nodes", "at most 4"});
+  expect_refused(peer.put("a", test_support::scene_of_nodes(
+                                   absl::StrCat(node, R"(, {"sum": {"children": ["#0", "#0", "#0", "#0"]}})"))),
                  StatusCode::INVALID_ARGUMENT, {"nodes[1]", "4 primitives", "at most 3"});
   v1::Scene heavy = test_support::scene_of_nodes(node);
   heavy.set_description(std::string(70'000, 'x'));
