@@ -22,8 +22,10 @@ using gpu::Buffer;
 constexpr std::uint32_t kCells = blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells;
 constexpr std::uint32_t kEdgeCorners = blobtree::kBrickCells + 1;
 constexpr std::uint32_t kCorners = kEdgeCorners * kEdgeCorners * kEdgeCorners;
-// Bricks of one submission: what a cancelled request still waits for, and others with it.
+// Bricks of one submission, and instructions of their tapes: what a cancelled request still waits for, and others with
+// it.
 constexpr std::uint32_t kSlab = 16'384;
+constexpr std::uint64_t kSlabInstructions = 1u << 18;
 // Quads of one submission and one output buffer.
 constexpr std::uint32_t kQuadSlab = 1u << 21;
 constexpr std::uint32_t kLocalSize = 64;
@@ -134,12 +136,23 @@ class Run {
     return absl::OkStatus();
   }
 
+  // How many bricks from `first` on make a slab; at least one.
+  std::uint32_t slab_from(std::uint32_t first) const {
+    const auto total = static_cast<std::uint32_t>(list_.bricks.size());
+    std::uint64_t instructions = 0;
+    std::uint32_t end = first;
+    while (end < total && end - first < kSlab && (end == first || instructions < kSlabInstructions)) {
+      instructions += list_.bricks[end++].tape_count;
+    }
+    return end - first;
+  }
+
   absl::Status sample() {
     const auto total = static_cast<std::uint32_t>(list_.bricks.size());
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* classify, kernels_.get(shaders::kMeshClassify));
-    for (std::uint32_t first = 0; first < total; first += kSlab) {
+    for (std::uint32_t first = 0, count = 0; first < total; first += count) {
       ISOFIELD_RETURN_IF_ERROR(check(0.1 + 0.5 * first / total));
-      const std::uint32_t count = std::min(kSlab, total - first);
+      count = slab_from(first);
       ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
       ISOFIELD_ASSIGN_OR_RETURN(Buffer samples, session.scratch(std::size_t{4} * kCorners * count));
       std::vector<Buffer> keep;
