@@ -24,8 +24,7 @@ uint quad_vertex(uint b, uvec3 at, uint axis, uint du, uint dv) {
   return starts[c.brick].x + cell_vertex(cell) + case_patch_of_edge(surface_cases[cell_case(cell)], 4u * axis + du + 2u * dv);
 }
 
-// The larger of the two cosines between a triangle pair's normals and their common edge is no concern here: the diagonal
-// that bends the quad less makes the flatter pair.
+// The cosine of the angle between the triangles (a, b, c) and (a, c, d): the better diagonal bends the quad less.
 float flatness(vec3 a, vec3 b, vec3 c, vec3 d) {
   vec3 n0 = cross(b - a, c - a), n1 = cross(c - a, d - a);
   return dot(n0, n1) * inversesqrt(max(dot(n0, n0) * dot(n1, n1), 1e-36));

@@ -23,6 +23,7 @@ struct Lattice {
 // Cells along a brick's edge. Small bricks evaluate more shared corners but far fewer cells without surface, on shorter
 // tapes: measured on the neuron at cell 16 (tests/bench).
 inline constexpr std::uint32_t kBrickCells = 4;
+inline constexpr std::uint32_t kCellsPerBrick = kBrickCells * kBrickCells * kBrickCells;
 
 struct Brick {
   std::uint32_t x, y, z;  // in bricks

@@ -120,8 +120,7 @@ absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshReque
 }
 
 absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const MeshRequest& request) {
-  constexpr std::uint64_t kCells = blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells;
-  const std::uint64_t most = std::min(kAutomaticCells, request.max_cells) / kCells;
+  const std::uint64_t most = std::min(kAutomaticCells, request.max_cells) / blobtree::kCellsPerBrick;
   if (tape.support.empty()) return 1.0;
   double cell = longest_edge(request.bounds.value_or(tape.support)) / kAutomaticCellsAlong;
   for (const blobtree::Leaf& leaf : tape.leaves) cell = std::min(cell, thinness(leaf));
@@ -142,9 +141,9 @@ absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const M
   absl::StatusOr<SurfaceBricks> found = find();
   if (!absl::IsResourceExhausted(found.status())) return found;
   ISOFIELD_ASSIGN_OR_RETURN(const double fits, smallest_fitting_cell(tape, request, max_bricks, cancelled));
-  constexpr std::uint64_t kCells = blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells;
   return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", request.cell_size, " takes more cells than the ",
-                                                   max_bricks * kCells, " in all, or the ", kMaxCellsPerAxis,
+                                                   max_bricks * blobtree::kCellsPerBrick, " in all, or the ",
+                                                   kMaxCellsPerAxis,
                                                    " along an axis, that are admitted; the smallest cell size that "
                                                    "fits is ",
                                                    fits));

@@ -19,7 +19,7 @@ using blobtree::BrickList;
 using blobtree::Lattice;
 using gpu::Buffer;
 
-constexpr std::uint32_t kCells = blobtree::kBrickCells * blobtree::kBrickCells * blobtree::kBrickCells;
+constexpr std::uint32_t kCells = blobtree::kCellsPerBrick;
 constexpr std::uint32_t kEdgeCorners = blobtree::kBrickCells + 1;
 constexpr std::uint32_t kCorners = kEdgeCorners * kEdgeCorners * kEdgeCorners;
 // Bricks of one submission, and instructions of their tapes: what a cancelled request still waits for, and others with

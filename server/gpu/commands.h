@@ -24,8 +24,7 @@ class Commands {
   ~Commands();
 
   using Bindings = std::vector<std::pair<std::uint32_t, const Buffer*>>;
-  // Runs `groups` workgroups, in dispatches of at most what the device takes along one axis: a shader finds its group
-  // by gl_WorkGroupID.x, so callers keep groups <= 65,535. Nothing is recorded for 0 groups.
+  // Runs `groups` workgroups along x, at most kMaxGroups. Nothing is recorded for 0.
   absl::Status dispatch(const Pipeline& pipeline, const Bindings& bindings, std::span<const std::byte> push_constants,
                         std::uint32_t groups);
   template <class Constants>
