@@ -296,7 +296,7 @@ absl::Status read_node(const v1::Node& message, Node& node) {
     case v1::Node::kTransform:
       read_transform(message.transform(), node, in);
       break;
-    case v1::Node::KIND_NOT_SET:
+    default:
       in.refuse("kind", "(absent)",
                 "one of sphere, segment, box, cylinder, torus, ellipsoid, sum, max, min, difference, ricci, gradient, "
                 "transform");
