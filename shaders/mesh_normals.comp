@@ -19,7 +19,7 @@ void main() {
   for (uint v = starts[b].x + gl_LocalInvocationID.x; v < end; v += gl_WorkGroupSize.x) {
     vec3 p = vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
     // Scaled by the cell first: in large units the square of a gradient underflows.
-    vec3 n = -origin.w * field_gradient(evaluate(p, at.tape_begin, at.tape_count));
+    vec3 n = -inward() * origin.w * field_gradient(evaluate(p, at.tape_begin, at.tape_count));
     float length2 = dot(n, n);
     n = length2 > 1e-30 ? n * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
     normals[3u * v] = n.x;

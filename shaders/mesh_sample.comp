@@ -17,7 +17,7 @@ void main() {
   uint n = min(gl_LocalInvocationID.x, CORNERS_PER_BRICK - 1u);
   uvec3 offset = uvec3(n % BRICK_CORNERS, n / BRICK_CORNERS % BRICK_CORNERS, n / (BRICK_CORNERS * BRICK_CORNERS));
   uvec3 i = b.at * BRICK_CELLS + offset;
-  float f = evaluate(corner_position(i), b.tape_begin, b.tape_count).f;
+  float f = inward() * evaluate(corner_position(i), b.tape_begin, b.tape_count).f;
   bool is_boundary = any(equal(i, uvec3(0u))) || any(greaterThanEqual(i, cells.xyz));
-  samples[job.y * CORNERS_PER_BRICK + n] = is_capped != 0u && is_boundary ? 0.0 : f;
+  samples[job.y * CORNERS_PER_BRICK + n] = is_capped() && is_boundary ? cap_value() : f;
 }

@@ -49,7 +49,7 @@ void main() {
         inside_corner = f0 > iso ? low : high;
         outside_corner = f0 > iso ? high : low;
         uvec3 outer = at.at * BRICK_CELLS + cell + outside_corner;
-        is_cap = is_cap || (is_capped != 0u && (any(equal(outer, uvec3(0u))) || any(greaterThanEqual(outer, cells.xyz))));
+        is_cap = is_cap || (is_capped() && (any(equal(outer, uvec3(0u))) || any(greaterThanEqual(outer, cells.xyz))));
       }
     }
     uvec3 base = at.at * BRICK_CELLS + cell;
@@ -65,7 +65,8 @@ void main() {
     bool done = is_cap;
     for (int step = 0; step < NEWTON_STEPS + BISECTION_STEPS && !done; ++step) {
       Field a = evaluate(p, at.tape_begin, at.tape_count);
-      float excess = a.f - iso;
+      a.d *= inward();
+      float excess = inward() * a.f - iso;
       float slope2 = dot(a.d, a.d);
       done = abs(excess) <= TOLERANCE * size * sqrt(slope2);
       vec3 move = -excess / max(slope2, 1e-30) * a.d;

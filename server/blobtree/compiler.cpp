@@ -5,33 +5,85 @@
 #include <algorithm>
 #include <map>
 
+#include "blobtree/bounds.h"
 #include "blobtree/leaf_placer.h"
 #include "operators/profile_table.h"
 
 namespace isofield::blobtree {
 namespace {
 
-Operator operator_of(const Node& node) {
-  switch (node.kind) {
-    case NodeKind::kSum:
+using operators::Form;
+using operators::Kind;
+using operators::Law;
+
+Operator opcode_of(const operators::Operator& op, Law law) {
+  switch (op.kind) {
+    case Kind::kSum:
       return Operator::kSum;
-    case NodeKind::kMax:
+    case Kind::kMax:
       return Operator::kMax;
-    case NodeKind::kMin:
+    case Kind::kMin:
       return Operator::kMin;
-    case NodeKind::kDifference:
-      return Operator::kSubtract;
-    case NodeKind::kRicci:
+    case Kind::kDifference:
+      // max(x1, -x2) = -min(-x1, x2).
+      return law == Law::kSigned ? Operator::kMin : Operator::kSubtract;
+    case Kind::kRicci:
       return Operator::kRicci;
-    default:
-      return node.silhouette.kind == operators::Silhouette::Kind::kSmooth ? Operator::kGradient
-                                                                          : Operator::kGradientTable;
+    case Kind::kGradient:
+      if (op.has_volume()) return Operator::kGradientVolume;
+      return op.silhouette.kind == operators::Silhouette::Kind::kSmooth ? Operator::kGradient
+                                                                        : Operator::kGradientTable;
+    case Kind::kSampled:
+      return Operator::kGradientVolume;
+    case Kind::kClean:
+      return Operator::kClean;
+    case Kind::kBarthe:
+      return Operator::kBarthe;
+    case Kind::kBernhardt:
+      return Operator::kBernhardt;
+    case Kind::kRUnion:
+    case Kind::kPasko:
+      return Operator::kPasko;
+    case Kind::kSuperelliptic:
+      return Operator::kSuperelliptic;
+    case Kind::kFunctional:
+      return Operator::kFunctional;
+    case Kind::kBt2:
+      return Operator::kBt2;
+    case Kind::kBtk:
+      return Operator::kBtk;
   }
+  return Operator::kMax;
 }
 
-// The same operator with its operands exchanged.
-Operator exchanged(Operator op) {
-  return op == Operator::kSubtract ? Operator::kSubtractFrom : op;
+bool is_n_ary(const Node& node) {
+  return node.op && (node.op->kind == Kind::kBtk || node.op->kind == Kind::kSuperelliptic);
+}
+bool is_conversion(const Node& node) {
+  return node.kind == NodeKind::kSoften || node.kind == NodeKind::kHarden;
+}
+// A node that is its only child: transforms are folded into the leaves.
+bool is_transparent(const Node& node) {
+  return node.children.size() == 1 && !is_conversion(node);
+}
+// ... of which it makes a difference which operand is the first.
+bool is_ordered(const operators::Operator& op) {
+  switch (op.kind) {
+    case Kind::kBarthe:
+    case Kind::kBernhardt:
+    case Kind::kPasko:
+    case Kind::kFunctional:
+    case Kind::kBt2:
+      return true;
+    case Kind::kGradient:
+      if (!op.silhouette.is_symmetric()) return true;
+      break;
+    case Kind::kSampled:
+      return true;
+    default:
+      break;
+  }
+  return op.form == Form::kDifference;
 }
 
 class Compiler {
@@ -51,6 +103,11 @@ class Compiler {
   }
 
  private:
+  struct Join {
+    Operator op = Operator::kPush;
+    std::uint32_t operation = 0;  // in Tape::operations
+    Mode mode;
+  };
   // One node on the way of being emitted.
   struct Frame {
     std::uint32_t node;
@@ -59,10 +116,10 @@ class Compiler {
     bool second_first = false;    // the second child is deeper: it goes first
     std::uint32_t operation = 0;  // operators of two or more children
     // How the node's value joins what is on the stack when it is complete.
-    Operator join = Operator::kPush;
-    std::uint32_t join_operation = 0;
+    Join join;
     double length = 0;  // largest range below
-    Box support;
+    Bounds bounds;
+    Bounds waiting;  // second_first: those of the second operand, until the first is there
   };
 
   // Values that wait while a node is evaluated. A leaf-like operand is fused and never waits.
@@ -71,20 +128,19 @@ class Compiler {
     leaf_like_.assign(scene_.nodes.size(), 0);
     for (const std::uint32_t index : scene_.order) {
       const Node& node = scene_.nodes[index];
-      leaf_like_[index] =
-          node.kind == NodeKind::kPrimitive || (node.children.size() == 1 && leaf_like_[node.children[0]]);
-      std::uint32_t need = 0;
+      leaf_like_[index] = node.kind == NodeKind::kPrimitive || (is_transparent(node) && leaf_like_[node.children[0]]);
+      std::size_t need = 0;
       for (std::size_t i = 0; i < node.children.size(); ++i) {
         const std::uint32_t child = ordered_child(node, i);
-        const std::uint32_t waiting = i > 0 && !leaf_like_[child] ? 1 : 0;
+        const std::size_t waiting = is_n_ary(node) ? i : i > 0 && !leaf_like_[child] ? 1 : 0;
         need = std::max(need, depth_[child] + waiting);
       }
-      depth_[index] = need;
+      depth_[index] = static_cast<std::uint32_t>(need);
     }
   }
 
   bool second_goes_first(const Node& node) const {
-    if (node.children.size() < 2) return false;
+    if (node.children.size() < 2 || is_n_ary(node)) return false;
     const std::uint32_t first = node.children[0], second = node.children[1];
     return leaf_like_[first] ? !leaf_like_[second] : !leaf_like_[second] && depth_[second] > depth_[first];
   }
@@ -92,27 +148,56 @@ class Compiler {
     return i < 2 && second_goes_first(node) ? node.children[1 - i] : node.children[i];
   }
 
-  void open(std::uint32_t node, std::uint32_t to_world, Operator join, std::uint32_t join_operation) {
+  void open(std::uint32_t node, std::uint32_t to_world, const Join& join) {
     Frame frame{.node = node, .to_world = to_world};
     frame.join = join;
-    frame.join_operation = join_operation;
     const Node& n = scene_.nodes[node];
     frame.second_first = second_goes_first(n);
-    if (n.children.size() >= 2) {
-      frame.operation = static_cast<std::uint32_t>(tape_.operations.size());
-      Operation& o = tape_.operations.emplace_back();
-      o.op = operator_of(n);
-      o.exponent = n.exponent;
-      o.opening = n.opening;
-      o.silhouette = n.silhouette;
-      o.record = frame.operation;
-      if (n.kind == NodeKind::kGradient) o.silhouette_bound = bound_of(n.silhouette);
-    }
+    if (n.children.size() >= 2 || is_conversion(n)) frame.operation = add_operation(n, node);
     if (n.kind == NodeKind::kTransform) {
       maps_.push_back(maps_[to_world].after(n.frame));
       frame.to_world = static_cast<std::uint32_t>(maps_.size() - 1);
     }
     stack_.push_back(frame);
+  }
+
+  std::uint32_t add_operation(const Node& node, std::uint32_t index) {
+    const auto place = static_cast<std::uint32_t>(tape_.operations.size());
+    Operation o;
+    o.node = index;
+    o.record = static_cast<std::uint32_t>(tape_.record_owners.size());
+    if (node.kind == NodeKind::kSoften) {
+      o.op = Operator::kSoften;
+      o.range = node.range;
+    } else if (node.kind == NodeKind::kHarden) {
+      o.op = Operator::kLinear;
+      o.factor = -1;
+      o.offset = 0.5;
+    } else {
+      o.op = opcode_of(*node.op, node.law);
+      o.what = node.op;
+      if (node.op->kind == Kind::kGradient) o.silhouette_bound = bound_of(node.op->silhouette);
+      if (node.op->kind == Kind::kSampled) o.silhouette_bound = operators::sampled_bound(*node.op->samples);
+      if (is_n_ary(node)) tape_.arity = std::max(tape_.arity, static_cast<std::uint32_t>(node.children.size()));
+      o.operands = static_cast<std::uint32_t>(is_n_ary(node) ? node.children.size() : 0);
+    }
+    tape_.record_owners.resize(o.record + operation_record_size(o), place);
+    tape_.operations.push_back(std::move(o));
+    return place;
+  }
+
+  // How the operand that is emitted as the i-th joins those before.
+  Join join_of(const Node& node, const Frame& frame, std::uint32_t i) const {
+    Join join{tape_.operations[frame.operation].op, frame.operation, {}};
+    const bool exchanged = i == 1 && frame.second_first;
+    if (join.op == Operator::kSubtract) {
+      if (exchanged) join.op = Operator::kSubtractFrom;
+      return join;
+    }
+    join.mode.form = node.op->kind == Kind::kDifference ? Form::kDifference : node.op->form;
+    join.mode.is_signed = node.law == Law::kSigned;
+    join.mode.is_exchanged = exchanged && (is_ordered(*node.op) || join.mode.form == Form::kDifference);
+    return join;
   }
 
   double bound_of(const operators::Silhouette& silhouette) {
@@ -123,7 +208,7 @@ class Compiler {
 
   absl::Status emit_all() {
     maps_.emplace_back();
-    open(scene_.root, 0, Operator::kPush, 0);
+    open(scene_.root, 0, {});
     while (!stack_.empty()) {
       Frame& top = stack_.back();
       const Node& node = scene_.nodes[top.node];
@@ -138,13 +223,12 @@ class Compiler {
       }
       const std::uint32_t i = top.next_child++;
       const std::uint32_t child = ordered_child(node, i);
-      if (node.children.size() == 1) {
-        open(child, top.to_world, top.join, top.join_operation);
-      } else if (i == 0) {
-        open(child, top.to_world, Operator::kPush, 0);
+      if (is_transparent(node)) {
+        open(child, top.to_world, top.join);
+      } else if (i == 0 || is_n_ary(node)) {
+        open(child, top.to_world, {});
       } else {
-        const Operator op = operator_of(node);
-        open(child, top.to_world, i == 1 && top.second_first ? exchanged(op) : op, top.operation);
+        open(child, top.to_world, join_of(node, top, i));
       }
     }
     return absl::OkStatus();
@@ -156,59 +240,90 @@ class Compiler {
     leaf->record = tape_.leaf_records;
     leaf->node = frame.node;
     tape_.leaf_records += leaf_record_size(leaf->operand);
-    emit(instruction(leaf->operand, frame.join, leaf->record, frame.join_operation,
-                     static_cast<std::uint32_t>(tape_.leaves.size())));
+    emit(leaf->operand, frame.join, leaf->record, static_cast<std::uint32_t>(tape_.leaves.size()));
+    if (leaf->law == Law::kSigned) tape_.operand_set |= kSignedLeaves;
     frame.length = leaf->range / leaf->stretch;
-    frame.support = leaf->support;
+    frame.bounds = {leaf->support, leaf->growth};
     tape_.leaves.push_back(*std::move(leaf));
     return absl::OkStatus();
   }
 
-  void emit(const Instruction& i) {
+  void emit(Operand operand, const Join& join, std::uint32_t leaf = 0, std::uint32_t index = 0) {
+    const std::uint32_t record = join.op == Operator::kPush ? 0 : tape_.operations[join.operation].record;
+    const Instruction i = instruction(operand, join.op, leaf, record, index, join.mode);
     tape_.code.push_back(i);
-    tape_.operand_set |= 1u << static_cast<std::uint32_t>(i.operand());
-    tape_.operator_set |= 1u << static_cast<std::uint32_t>(i.op());
-    if (i.op() == Operator::kSubtract || i.op() == Operator::kSubtractFrom) {
+    tape_.operand_set |= 1u << static_cast<std::uint32_t>(operand);
+    tape_.operator_set |= 1u << static_cast<std::uint32_t>(join.op);
+    if (i.code >> 16 != 0) tape_.operator_set |= kModes;
+    if (join.op == Operator::kSubtract || join.op == Operator::kSubtractFrom) {
       // Where the subtrahend is gone, the pruner clamps fields above 1 by subtracting 0.
       tape_.operand_set |= 1u << static_cast<std::uint32_t>(Operand::kZero);
       tape_.operator_set |= 1u << static_cast<std::uint32_t>(Operator::kSubtract);
+    }
+    if (join.op == Operator::kPush) return;
+    const auto& what = tape_.operations[join.operation].what;
+    if (what && what->by_angle) tape_.operator_set |= kByAngle;
+    if (join.mode.form == Form::kDifference && !join.mode.is_signed) {
+      tape_.operand_set |= 1u << static_cast<std::uint32_t>(Operand::kZero);  // likewise
+      tape_.operator_set |= 1u << static_cast<std::uint32_t>(Operator::kSubtract);
+    }
+    // What remains of a blend with weights beyond its range is one operand over its weight; what remains of a positive
+    // field that is made signed, 0.5 less 0.
+    if (join.op == Operator::kBt2 || join.op == Operator::kBtk || join.op == Operator::kLinear) {
+      tape_.operator_set |= 1u << static_cast<std::uint32_t>(Operator::kLinear);
+      tape_.operand_set |= 1u << static_cast<std::uint32_t>(Operand::kZero);
     }
   }
 
   // The node on top is complete: join its value, and tell its parent what it needs to know.
   void close() {
-    const Frame done = stack_.back();
+    Frame done = stack_.back();
     const Node& node = scene_.nodes[done.node];
     stack_.pop_back();
+    const double scale = node.kind == NodeKind::kSoften ? maps_[done.to_world].stretch().least : 1;
     if (node.kind == NodeKind::kTransform) maps_.pop_back();
-    if (node.children.size() >= 2) {
-      tape_.operations[done.operation].length = done.length;
-      // A single child, or a leaf, has joined already.
-      if (done.join != Operator::kPush) {
-        emit(instruction(Operand::kPop, done.join, 0, done.join_operation));
+    if (node.children.size() >= 2 || is_conversion(node)) {
+      const Join own{tape_.operations[done.operation].op, done.operation, unary_mode(node)};
+      if (node.kind == NodeKind::kSoften) done.length = node.range * scale;
+      if (is_conversion(node)) {
+        done.bounds = node.kind == NodeKind::kSoften ? softened(done.bounds, node.range) : hardened(done.bounds);
+        emit(Operand::kZero, own);
+      } else if (is_n_ary(node)) {
+        emit(Operand::kZero, own, (1u << node.children.size()) - 1);
       }
+      tape_.operations[done.operation].length = done.length;
+      // A transparent node's child, or a leaf, has joined already.
+      if (done.join.op != Operator::kPush) emit(Operand::kPop, done.join);
     }
     if (stack_.empty()) {
-      tape_.support = done.support;
+      tape_.law = node.law;
+      tape_.support = done.bounds.box;
       return;
     }
     Frame& parent = stack_.back();
     const Node& above = scene_.nodes[parent.node];
     parent.length = std::max(parent.length, done.length);
-    const std::uint32_t place = parent.next_child - 1;  // in the order of emission
-    if (above.kind == NodeKind::kDifference) {
-      if (place == (parent.second_first ? 1u : 0u)) parent.support = done.support;  // the minuend
-    } else if (above.kind == NodeKind::kMin && place > 0) {
-      intersect(parent.support, done.support);
-    } else {
-      parent.support.add(done.support);
+    if (!above.op || above.children.size() == 1) {
+      parent.bounds = done.bounds;
+      return;
     }
+    // The order of emission may exchange the first two operands.
+    std::uint32_t operand = parent.next_child - 1;
+    if (parent.second_first && operand < 2) {
+      if (operand == 0) {
+        parent.waiting = done.bounds;
+        return;
+      }
+      join_bounds(parent.bounds, *above.op, above.law, 0, done.bounds);
+      join_bounds(parent.bounds, *above.op, above.law, 1, parent.waiting);
+      return;
+    }
+    join_bounds(parent.bounds, *above.op, above.law, operand, done.bounds);
   }
 
-  static void intersect(Box& a, const Box& b) {
-    a.min = {std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y), std::max(a.min.z, b.min.z)};
-    a.max = {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y), std::min(a.max.z, b.max.z)};
-    if (a.empty()) a = {};
+  static Mode unary_mode(const Node& node) {
+    if (!is_n_ary(node)) return {};
+    return {node.op->form, node.law == Law::kSigned, false};
   }
 
   const Scene& scene_;
@@ -221,6 +336,24 @@ class Compiler {
 };
 
 }  // namespace
+
+std::uint32_t operation_record_size(const Operation& operation) {
+  switch (operation.op) {
+    case Operator::kBt2:
+      return 3;
+    case Operator::kSuperelliptic:
+    case Operator::kBtk:
+      return 1 + operation.operands;
+    default:
+      return 1;
+  }
+}
+
+std::pair<double, double> Tape::linear(const Instruction& i) const {
+  const Operation& o = operation(i);
+  if (o.op == Operator::kLinear) return {o.factor, o.offset};
+  return {1 / o.what->term(i.operation - o.record - 1).weight, 0};
+}
 
 void Box::add(const Box& other) {
   min = {std::min(min.x, other.min.x), std::min(min.y, other.min.y), std::min(min.z, other.min.z)};

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kNotStored = ~std::size_t{0};
 
 bool has_same_code(const Instruction& a, const Instruction& b) {
-  return a.code == b.code && a.index == b.index;
+  return a.code == b.code && a.leaf == b.leaf && a.operation == b.operation && a.index == b.index;
 }
 
 class Culler {
@@ -63,9 +63,13 @@ class Culler {
             {o.x + step.x * (cell.x + 1), o.y + step.y * (cell.y + 1), o.z + step.z * (cell.z + 1)}};
   }
 
-  bool is_kept(const Cell& cell, const Interval& range) const {
-    if (request_.keep == Keep::kSupport) return range.hi > 0;
-    return range.hi >= request_.iso && (range.lo <= request_.iso || (request_.is_capped && is_at_boundary(cell)));
+  bool is_kept(const Cell& cell, const Pruned& p) const {
+    if (request_.keep == Keep::kSupport) return !p.is_zero;
+    const bool may_be_inside =
+        tape_.law == operators::Law::kSigned ? p.range.lo <= request_.iso : p.range.hi >= request_.iso;
+    const bool may_be_outside =
+        tape_.law == operators::Law::kSigned ? p.range.hi >= request_.iso : p.range.lo <= request_.iso;
+    return may_be_inside && (may_be_outside || (request_.is_capped && is_at_boundary(cell)));
   }
 
   bool is_at_boundary(const Cell& cell) const {
@@ -81,8 +85,8 @@ class Culler {
     const Level parent = levels_[cell.parent];
     const std::size_t begin = parent.begin + parent.count;
     arena_.resize(begin);
-    const Interval range = pruner_.prune(arena_, parent.begin, parent.count, box_of(cell), arena_);
-    if (!is_kept(cell, range)) return;
+    const Pruned pruned = pruner_.prune(arena_, parent.begin, parent.count, box_of(cell), arena_);
+    if (!is_kept(cell, pruned)) return;
     const std::size_t count = arena_.size() - begin;
     // Nothing dropped out: go on with the parent's, which may be in the result already.
     const bool same = count == parent.count &&

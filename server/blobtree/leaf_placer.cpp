@@ -87,6 +87,7 @@ absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
   leaf.shape = node.shape;
   leaf.size = node.size;
   leaf.range = node.range;
+  leaf.law = node.law;
   const Affine::Stretch stretch = place.stretch();
   const bool similar = stretch.most - stretch.least <= 1e-9 * stretch.most;
   if (similar) {
@@ -94,6 +95,7 @@ absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
     const double factor = stretch.most;
     for (double& length : leaf.size) length *= factor;
     leaf.range *= factor;
+    leaf.per_distance = 1 / factor;
     for (dvec3& row : place.linear) row = row * (1 / factor);
   }
   const std::optional<Affine> inverse = place.inverse();
@@ -101,8 +103,9 @@ absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
   const double largest = std::max(*std::max_element(node.size.begin(), node.size.end()), node.range);
   // Maps that each are well conditioned may multiply to one that is not, and whose least stretch is lost in rounding.
   if (!inverse || !(stretch.least * (kMaxCondition * 1.001) >= stretch.most) ||
-      !(node.range * stretch.least >= kMinLength) || !near_enough(largest * stretch.most) ||
-      !near_enough(place.offset.x) || !near_enough(place.offset.y) || !near_enough(place.offset.z)) {
+      !(node.law == operators::Law::kSigned || node.range * stretch.least >= kMinLength) ||
+      !near_enough(largest * stretch.most) || !near_enough(place.offset.x) || !near_enough(place.offset.y) ||
+      !near_enough(place.offset.z)) {
     return absl::InvalidArgumentError(
         absl::StrCat(node.path, ": the transforms above scale it by ", stretch.least, " to ", stretch.most,
                      " and place it at (", place.offset.x, ", ", place.offset.y, ", ", place.offset.z,
@@ -112,6 +115,11 @@ absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
   leaf.anchor = place.offset;
   leaf.to_local = {inverse->linear, {}};
   leaf.stretch = similar ? 1 : 1 / stretch.least;
+  leaf.growth = stretch.most;
+  if (leaf.shape == Shape::kEllipsoid) {
+    const auto [least, most] = std::minmax({node.size[0], node.size[1], node.size[2]});
+    leaf.growth *= most / least;
+  }
 
   switch (leaf.shape) {
     case Shape::kSphere:

@@ -1,81 +1,42 @@
 #include "blobtree/node_reader.h"
 
 #include <absl/strings/str_cat.h>
-#include <absl/strings/string_view.h>
+#include <absl/strings/str_join.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "blobtree/field_reader.h"
+#include "blobtree/operator_reader.h"
+
 namespace isofield::blobtree {
 namespace {
 
-using Numbers = google::protobuf::RepeatedField<double>;
-
 constexpr double kRadians = std::numbers::pi / 180;
 
-// Reads the fields of one node and keeps the first refusal.
-class FieldReader {
- public:
-  explicit FieldReader(const Node& node) : node_(node) {}
-
-  absl::Status status() const { return status_; }
-
-  void refuse(absl::string_view field, absl::string_view value, absl::string_view expected) {
-    if (!status_.ok()) return;
-    status_ = absl::InvalidArgumentError(absl::StrCat(node_.path, ".", field, " = ", value, ": expected ", expected));
+// The law of a primitive's field, and its range where it has one.
+template <class Primitive>
+void read_law(const Primitive& m, Node& node, FieldReader& in) {
+  switch (m.law()) {
+    case v1::FIELD_LAW_UNSPECIFIED:
+    case v1::POSITIVE:
+      node.range = in.positive("range", m.range());
+      return;
+    case v1::SIGNED:
+      node.law = operators::Law::kSigned;
+      if (m.range() != 0) in.refuse("range", absl::StrCat(m.range()), "none: a SIGNED field has no range");
+      return;
+    default:
+      in.refuse("law", absl::StrCat(static_cast<int>(m.law())), "POSITIVE or SIGNED");
   }
-
-  double number(absl::string_view field, double value, double least, double most, absl::string_view expected) {
-    if (!(value >= least && value <= most)) refuse(field, absl::StrCat(value), expected);
-    return value;
-  }
-  double positive(absl::string_view field, double value) {
-    return number(field, value, kMinLength, kMaxCoordinate,
-                  absl::StrCat("a length > 0, within [", kMinLength, ", ", kMaxCoordinate, "]"));
-  }
-  double coordinate(absl::string_view field, double value) {
-    return number(field, value, -kMaxCoordinate, kMaxCoordinate,
-                  absl::StrCat("a finite number of magnitude at most ", kMaxCoordinate));
-  }
-  dvec3 point(absl::string_view field, const Numbers& numbers, const dvec3& otherwise = {}) {
-    return has_size(field, numbers, 3, true) ? stated_point(field, numbers) : otherwise;
-  }
-  // A point without a default.
-  dvec3 stated_point(absl::string_view field, const Numbers& numbers) {
-    if (!has_size(field, numbers, 3, false)) return {};
-    return {coordinate(absl::StrCat(field, ".x"), numbers[0]), coordinate(absl::StrCat(field, ".y"), numbers[1]),
-            coordinate(absl::StrCat(field, ".z"), numbers[2])};
-  }
-  // A direction of any length but 0.
-  dvec3 direction(absl::string_view field, const Numbers& numbers, const dvec3& otherwise) {
-    const dvec3 v = point(field, numbers, otherwise);
-    if (!(length(v) > 0)) refuse(field, "(0, 0, 0)", "a direction of a length that is not 0");
-    return v;
-  }
-  dvec3 lengths(absl::string_view field, const Numbers& numbers) {
-    if (!has_size(field, numbers, 3, false)) return {1, 1, 1};
-    return {positive(absl::StrCat(field, ".x"), numbers[0]), positive(absl::StrCat(field, ".y"), numbers[1]),
-            positive(absl::StrCat(field, ".z"), numbers[2])};
-  }
-  // False when the default is meant, or the count is refused.
-  bool has_size(absl::string_view field, const Numbers& numbers, int size, bool may_be_empty) {
-    if (numbers.empty() && may_be_empty) return false;
-    if (numbers.size() == size) return true;
-    refuse(field, absl::StrCat("[", numbers.size(), " numbers]"), absl::StrCat(size, " numbers"));
-    return false;
-  }
-
- private:
-  const Node& node_;
-  absl::Status status_;
-};
+}
 
 void read_segment(const v1::Segment& m, Node& node, FieldReader& in) {
   const dvec3 a = in.stated_point("a", m.a()), b = in.stated_point("b", m.b());
   const dvec3 axis = b - a;
   node.shape = Shape::kSegment;
   node.size = {length(axis), in.positive("radius_a", m.radius_a()), in.positive("radius_b", m.radius_b())};
-  node.range = in.positive("range", m.range());
+  read_law(m, node, in);
   node.frame = node.size[0] > 0 ? Affine::frame(a, axis) : Affine::translation(a);
 }
 
@@ -87,7 +48,7 @@ void read_box(const v1::Box& m, Node& node, FieldReader& in) {
   node.size = {half.x, half.y, half.z,
                in.number("rounding", m.rounding(), 0, least,
                          absl::StrCat("a radius within [0, ", least, "], the smallest half size"))};
-  node.range = in.positive("range", m.range());
+  read_law(m, node, in);
 }
 
 void read_cylinder(const v1::Cylinder& m, Node& node, FieldReader& in) {
@@ -95,63 +56,11 @@ void read_cylinder(const v1::Cylinder& m, Node& node, FieldReader& in) {
   const dvec3 axis = b - a;
   node.shape = Shape::kCylinder;
   node.size = {length(axis) / 2, in.positive("radius", m.radius())};
-  node.range = in.positive("range", m.range());
+  read_law(m, node, in);
   if (node.size[0] >= kMinLength) {
     node.frame = Affine::frame((a + b) * 0.5, axis);
   } else {
     in.refuse("b", "a", "a point that differs from a");
-  }
-}
-
-void read_opening(const v1::Opening& m, Node& node, FieldReader& in) {
-  operators::Opening o = operators::camel();
-  if (m.preset() == v1::Opening::ORGANIC) o = operators::organic();
-  if (m.preset() == v1::Opening::CONTACT) o = operators::contact();
-  if (m.preset() < 0 || m.preset() > v1::Opening::CONTACT) {
-    in.refuse("opening.preset", absl::StrCat(static_cast<int>(m.preset())), "CAMEL, ORGANIC or CONTACT");
-  }
-  const bool stated[] = {m.has_alpha0(), m.has_alpha1(), m.has_alpha2(), m.has_theta0(),
-                         m.has_theta1(), m.has_theta2(), m.has_w0(),     m.has_w1()};
-  const double values[] = {m.alpha0(), m.alpha1(), m.alpha2(), m.theta0(), m.theta1(), m.theta2(), m.w0(), m.w1()};
-  constexpr const char* kNames[] = {"opening.alpha0", "opening.alpha1", "opening.alpha2", "opening.theta0",
-                                    "opening.theta1", "opening.theta2", "opening.w0",     "opening.w1"};
-  double* const parameters[] = {&o.alpha0, &o.alpha1, &o.alpha2, &o.theta0, &o.theta1, &o.theta2, &o.w0, &o.w1};
-  bool any = false, all = true;
-  for (bool s : stated) any |= s, all &= s;
-  if (m.preset() == v1::Opening::PRESET_UNSPECIFIED && any && !all) {
-    for (int i = 0; i < 8; ++i) {
-      if (!stated[i]) in.refuse(kNames[i], "(absent)", "a value, or a preset that supplies it");
-    }
-  }
-  for (int i = 0; i < 8; ++i) {
-    if (!stated[i]) continue;
-    if (i < 3) {
-      *parameters[i] = in.number(kNames[i], values[i], 0, 180, "degrees within [0, 180]") * kRadians;
-    } else if (i < 6) {
-      *parameters[i] = in.number(kNames[i], values[i], 0, 45, "degrees within [0, 45]") * kRadians;
-    } else {
-      *parameters[i] = in.number(kNames[i], values[i], 0.05, 20, "a slope within [0.05, 20]");
-    }
-  }
-  const auto degrees = [](double radians) { return absl::StrCat(radians / kRadians); };
-  if (!(o.alpha0 < o.alpha1)) in.refuse("opening.alpha1", degrees(o.alpha1), "more than alpha0 = " + degrees(o.alpha0));
-  if (!(o.alpha1 < o.alpha2)) in.refuse("opening.alpha2", degrees(o.alpha2), "more than alpha1 = " + degrees(o.alpha1));
-  node.opening = o;
-}
-
-void read_silhouette(const v1::Silhouette& m, Node& node, FieldReader& in) {
-  switch (m.kind()) {
-    case v1::Silhouette::KIND_UNSPECIFIED:
-    case v1::Silhouette::SMOOTH:
-      if (m.k() != 0) in.refuse("silhouette.k", absl::StrCat(m.k()), "no k, or kind BULGE");
-      node.silhouette = {};
-      return;
-    case v1::Silhouette::BULGE:
-      node.silhouette = {operators::Silhouette::Kind::kBulge,
-                         in.number("silhouette.k", m.k(), 0, 1, "a strength within [0, 1]")};
-      return;
-    default:
-      in.refuse("silhouette.kind", absl::StrCat(static_cast<int>(m.kind())), "SMOOTH or BULGE");
   }
 }
 
@@ -195,55 +104,52 @@ void read_transform(const v1::Transform& m, Node& node, FieldReader& in) {
   }
 }
 
+void read_custom(const std::string& name, const OperatorTable& custom, Node& node, FieldReader& in) {
+  const auto it = custom.find(name);
+  if (it != custom.end()) {
+    node.op = it->second;
+    return;
+  }
+  in.refuse("operator", absl::StrCat("'", name, "'"), "the name of a custom operator that is put before the scene");
+}
+
+std::string kind_names() {
+  const auto* oneof = v1::Node::descriptor()->FindOneofByName("kind");
+  std::vector<std::string> names;
+  for (int i = 0; i < oneof->field_count(); ++i) names.emplace_back(oneof->field(i)->name());
+  return absl::StrJoin(names, ", ");
+}
+
 }  // namespace
 
 std::vector<const std::string*> child_references(const v1::Node& message) {
-  const google::protobuf::RepeatedPtrField<std::string>* list = nullptr;
-  switch (message.kind_case()) {
-    case v1::Node::kSum:
-      list = &message.sum().children();
-      break;
-    case v1::Node::kMax:
-      list = &message.max().children();
-      break;
-    case v1::Node::kMin:
-      list = &message.min().children();
-      break;
-    case v1::Node::kDifference:
-      list = &message.difference().children();
-      break;
-    case v1::Node::kRicci:
-      list = &message.ricci().children();
-      break;
-    case v1::Node::kGradient:
-      list = &message.gradient().children();
-      break;
-    case v1::Node::kTransform:
-      return {&message.transform().child()};
-    default:
-      return {};
-  }
+  static const google::protobuf::OneofDescriptor* const kKind = v1::Node::descriptor()->FindOneofByName("kind");
   std::vector<const std::string*> references;
-  references.reserve(list->size());
-  for (const std::string& child : *list) references.push_back(&child);
+  if (message.has_transform()) return {&message.transform().child()};
+  if (message.has_soften()) return {&message.soften().child()};
+  if (message.has_harden()) return {&message.harden().child()};
+  const auto* kind = message.GetReflection()->GetOneofFieldDescriptor(message, kKind);
+  if (!kind) return {};
+  const auto& body = message.GetReflection()->GetMessage(message, kind);
+  // Operators have them as their first field.
+  const auto* children = body.GetDescriptor()->FindFieldByNumber(1);
+  if (children->cpp_type() != google::protobuf::FieldDescriptor::CPPTYPE_STRING || !children->is_repeated()) return {};
+  const auto* reflection = body.GetReflection();
+  std::string scratch;  // unused: the message holds strings as they are
+  for (int i = 0; i < reflection->FieldSize(body, children); ++i) {
+    references.push_back(&reflection->GetRepeatedStringReference(body, children, i, &scratch));
+  }
   return references;
 }
 
-absl::Status read_node(const v1::Node& message, Node& node) {
-  FieldReader in(node);
-  const auto needs_children = [&](NodeKind kind, int count, int least) {
-    node.kind = kind;
-    if (count < least) {
-      in.refuse("children", absl::StrCat("[", count, " children]"),
-                absl::StrCat("at least ", least, least == 1 ? " child" : " children"));
-    }
-  };
+absl::Status read_node(const v1::Node& message, const OperatorTable& custom, Node& node) {
+  FieldReader in(node.path);
   switch (message.kind_case()) {
     case v1::Node::kSphere:
       node.shape = Shape::kSphere;
       node.frame = Affine::translation(in.point("center", message.sphere().center()));
       node.size = {in.positive("radius", message.sphere().radius())};
-      node.range = in.positive("range", message.sphere().range());
+      read_law(message.sphere(), node, in);
       break;
     case v1::Node::kSegment:
       read_segment(message.segment(), node, in);
@@ -260,7 +166,7 @@ absl::Status read_node(const v1::Node& message, Node& node) {
       const dvec3 axis = in.direction("axis", m.axis(), {0, 0, 1});
       node.shape = Shape::kTorus;
       node.size = {in.positive("major_radius", m.major_radius()), in.positive("minor_radius", m.minor_radius())};
-      node.range = in.positive("range", m.range());
+      read_law(m, node, in);
       if (in.status().ok()) node.frame = Affine::frame(center, axis);
       break;
     }
@@ -269,38 +175,32 @@ absl::Status read_node(const v1::Node& message, Node& node) {
       node.shape = Shape::kEllipsoid;
       node.frame = Affine::translation(in.point("center", message.ellipsoid().center()));
       node.size = {axes.x, axes.y, axes.z};
-      node.range = in.positive("range", message.ellipsoid().range());
+      read_law(message.ellipsoid(), node, in);
       break;
     }
-    case v1::Node::kSum:
-      needs_children(NodeKind::kSum, message.sum().children_size(), 1);
-      break;
-    case v1::Node::kMax:
-      needs_children(NodeKind::kMax, message.max().children_size(), 1);
-      break;
-    case v1::Node::kMin:
-      needs_children(NodeKind::kMin, message.min().children_size(), 1);
-      break;
-    case v1::Node::kDifference:
-      needs_children(NodeKind::kDifference, message.difference().children_size(), 2);
-      break;
-    case v1::Node::kRicci:
-      needs_children(NodeKind::kRicci, message.ricci().children_size(), 1);
-      node.exponent = in.number("exponent", message.ricci().exponent(), 1, 64, "an exponent within [1, 64]");
-      break;
-    case v1::Node::kGradient:
-      needs_children(NodeKind::kGradient, message.gradient().children_size(), 1);
-      read_opening(message.gradient().opening(), node, in);
-      read_silhouette(message.gradient().silhouette(), node, in);
-      break;
     case v1::Node::kTransform:
       read_transform(message.transform(), node, in);
       break;
+    case v1::Node::kSoften:
+      node.kind = NodeKind::kSoften;
+      node.range = in.positive("range", message.soften().range());
+      break;
+    case v1::Node::kHarden:
+      node.kind = NodeKind::kHarden;
+      node.law = operators::Law::kSigned;
+      break;
+    case v1::Node::kCustom:
+      node.kind = NodeKind::kOperator;
+      read_custom(message.custom().operator_(), custom, node, in);
+      break;
+    case v1::Node::KIND_NOT_SET:
+      in.refuse("kind", "(absent)", absl::StrCat("one of ", kind_names()));
+      break;
     default:
-      in.refuse("kind", "(absent)",
-                "one of sphere, segment, box, cylinder, torus, ellipsoid, sum, max, min, difference, ricci, gradient, "
-                "transform");
+      node.kind = NodeKind::kOperator;
+      node.op = read_operator(message, in);
   }
+  if (in.status().ok() && node.op) node.law = operators::law_of(node.op->kind);
   return in.status();
 }
 

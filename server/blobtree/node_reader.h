@@ -3,13 +3,15 @@
 
 #include <absl/status/status.h>
 
+#include "blobtree/operator_table.h"
 #include "blobtree/scene.h"
 #include "isofield/v1/scene.pb.h"
 
 namespace isofield::blobtree {
 
-// Fills everything of `node` but `children`; node.path is set and used in errors.
-absl::Status read_node(const v1::Node& message, Node& node);
+// Fills everything of `node` but `children`; node.path is set and used in errors. The law of operators that take either
+// is left to scene_reader, too.
+absl::Status read_node(const v1::Node& message, const OperatorTable& custom, Node& node);
 
 // The children that a node refers to, in order.
 std::vector<const std::string*> child_references(const v1::Node& message);

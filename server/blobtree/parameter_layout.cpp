@@ -16,7 +16,8 @@ float f(double x) {
 
 void write_leaf(const Leaf& leaf, Float4* out) {
   const ShapeSize& s = leaf.size;
-  const float slope = f((1 - kR0) / leaf.range);  // dr/dd
+  // dr/dd of the falloff; of a signed field minus what the distance is multiplied by.
+  const float slope = leaf.law == operators::Law::kSigned ? f(-leaf.per_distance) : f((1 - kR0) / leaf.range);
   const Float4 anchor{f(leaf.anchor.x), f(leaf.anchor.y), f(leaf.anchor.z), slope};
   const auto rows = [&](double p0, double p1, double p2) {
     const auto& m = leaf.to_local.linear;
@@ -92,10 +93,14 @@ class Tables {
   explicit Tables(std::vector<Float4>& out) : out_(out) {}
 
   std::uint32_t silhouette(const operators::Silhouette& s) {
-    return find(silhouettes_, s, [&] { return operators::silhouette_table(s); });
+    // A silhouette with two different halves is marked by bit 30.
+    return find(silhouettes_, s, [&] { return operators::silhouette_table(s); }) | (s.is_symmetric() ? 0 : 1u << 30);
   }
   std::uint32_t opening(const operators::Opening& o) {
     return find(openings_, o, [&] { return operators::opening_table(o); });
+  }
+  std::uint32_t curve(const operators::SampledCurve& c) {
+    return find(curves_, c, [&] { return operators::curve_table(c); });
   }
 
  private:
@@ -114,28 +119,108 @@ class Tables {
   std::vector<Float4>& out_;
   std::map<operators::Silhouette, std::uint32_t> silhouettes_;
   std::map<operators::Opening, std::uint32_t> openings_;
+  std::map<operators::SampledCurve, std::uint32_t> curves_;
+};
+
+// What a `sampled` or `volume` operator finds its samples by: the slot of the volume's binding and its size.
+std::uint32_t pack_volume(std::uint32_t slot, int size) {
+  return slot | static_cast<std::uint32_t>(size) << 8;
+}
+
+class Layout {
+ public:
+  explicit Layout(const Tape& tape) : tape_(tape), tables_(buffers_.tables) {}
+
+  ParameterBuffers run() {
+    buffers_.leaves.resize(std::max<std::size_t>(tape_.leaf_records, 1));
+    for (const Leaf& leaf : tape_.leaves) write_leaf(leaf, &buffers_.leaves[leaf.record]);
+    buffers_.operations.resize(std::max<std::size_t>(tape_.record_owners.size(), 1));
+    for (const Operation& o : tape_.operations) write_operation(o, &buffers_.operations[o.record]);
+    if (buffers_.tables.empty()) buffers_.tables.resize(1);
+    return std::move(buffers_);
+  }
+
+ private:
+  void write_operation(const Operation& o, Float4* out) {
+    switch (o.op) {
+      case Operator::kLinear:
+        out[0] = {f(o.factor), f(o.offset), 0, 0};
+        break;
+      case Operator::kSoften:
+        out[0] = {f((1 - kR0) / o.range), 0, 0, 0};
+        break;
+      case Operator::kRicci:
+        out[0] = {f(o.what->exponent), f(1 / o.what->exponent), 0, 0};
+        break;
+      case Operator::kGradient:
+        out[0] = steered(o, 0);
+        break;
+      case Operator::kGradientTable:
+        out[0] = steered(o, tables_.silhouette(o.what->silhouette));
+        break;
+      case Operator::kGradientVolume:
+        out[0] = steered(o, pack_volume(volume_slot(*o.what), operators::volume_key(*o.what).size));
+        // A sampled operator is homogeneous about the origin, a volume of the gradient blend about (t/2, t/2).
+        if (o.what->kind == operators::Kind::kSampled) out[0][3] = -out[0][3];
+        break;
+      case Operator::kBarthe:
+      case Operator::kBernhardt:
+        out[0] = {f(std::tan(o.what->theta1)), f(std::tan(o.what->theta2)), f(o.what->weight), 0};
+        break;
+      case Operator::kPasko:
+        out[0] = {o.what->kind == operators::Kind::kPasko ? f(o.what->a0) : 0, f(1 / (o.what->a1 * o.what->a1)),
+                  f(1 / (o.what->a2 * o.what->a2)), 0};
+        break;
+      case Operator::kFunctional: {
+        const operators::SampledCurve& h = o.what->curve;
+        const double low = h.x().front(), span = h.x().back() - low;
+        out[0] = {std::bit_cast<float>(tables_.curve(h)), f(low), f(operators::kCurveCells / span), 0};
+        break;
+      }
+      case Operator::kBt2:
+        out[0] = {f(o.what->term(0).range), f(o.what->term(1).range), f(o.what->conic), omega(o)};
+        for (std::uint32_t i = 0; i < 2; ++i) {
+          const double weight = o.what->term(i).weight;
+          out[1 + i] = {f(1 / weight), 0, f(weight), 0};
+        }
+        break;
+      case Operator::kSuperelliptic:
+      case Operator::kBtk:
+        out[0] = {f(o.what->exponent), omega(o), 0, 0};
+        for (std::uint32_t i = 0; i < o.operands; ++i) {
+          const operators::Term& t = o.what->term(i);
+          // The third number is the power; an operator of weights 1 needs no other.
+          out[1 + i] = {f(1 / t.weight), 0, f(t.power), f(t.range)};
+        }
+        break;
+      default:
+        break;
+    }
+  }
+
+  static float omega(const Operation& o) { return o.what->by_angle ? f(o.what->omega) : -1.0f; }
+
+  Float4 steered(const Operation& o, std::uint32_t silhouette) {
+    return {std::bit_cast<float>(tables_.opening(o.what->opening)), std::bit_cast<float>(silhouette),
+            f(std::tan(o.what->opening.theta_min())), f(o.length)};
+  }
+
+  std::uint32_t volume_slot(const operators::Operator& op) {
+    const auto [it, is_new] = slots_.try_emplace(operators::volume_key(op), static_cast<std::uint32_t>(slots_.size()));
+    if (is_new) buffers_.volumes.push_back(op);
+    return it->second;
+  }
+
+  const Tape& tape_;
+  ParameterBuffers buffers_;
+  Tables tables_;
+  std::map<operators::VolumeKey, std::uint32_t> slots_;
 };
 
 }  // namespace
 
 ParameterBuffers lay_out(const Tape& tape) {
-  ParameterBuffers buffers;
-  buffers.leaves.resize(std::max<std::size_t>(tape.leaf_records, 1));
-  for (const Leaf& leaf : tape.leaves) write_leaf(leaf, &buffers.leaves[leaf.record]);
-  buffers.operations.resize(std::max<std::size_t>(tape.operations.size(), 1));
-  Tables tables(buffers.tables);
-  for (const Operation& o : tape.operations) {
-    Float4& record = buffers.operations[o.record];
-    if (o.op == Operator::kRicci) {
-      record = {f(o.exponent), f(1 / o.exponent), 0, 0};
-    } else if (o.op == Operator::kGradient || o.op == Operator::kGradientTable) {
-      const std::uint32_t silhouette = o.op == Operator::kGradient ? 0 : tables.silhouette(o.silhouette);
-      record = {std::bit_cast<float>(tables.opening(o.opening)), std::bit_cast<float>(silhouette),
-                f(std::tan(o.opening.theta_min())), f(o.length)};
-    }
-  }
-  if (buffers.tables.empty()) buffers.tables.resize(1);
-  return buffers;
+  return Layout(tape).run();
 }
 
 }  // namespace isofield::blobtree

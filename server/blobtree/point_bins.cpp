@@ -66,7 +66,7 @@ class Binner {
     const std::size_t begin = parent.begin + parent.count;
     arena_.resize(begin);
     const Box box = box_of(range);
-    if (pruner_.prune(arena_, parent.begin, parent.count, box, arena_).hi <= 0) return;
+    if (pruner_.prune(arena_, parent.begin, parent.count, box, arena_).is_zero) return;
     const std::size_t count = arena_.size() - begin;
     if (count <= kShortTape || range.count <= kSmallGroup || !(box.min != box.max)) {
       bins_.groups.push_back(

@@ -1,19 +1,17 @@
 #include "blobtree/pruner.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "blobtree/scene.h"
 
 namespace isofield::blobtree {
 namespace {
 
-// What float32 evaluation may differ from exact arithmetic: of a field value, and of a length relative to the
-// coordinates it was computed from.
-constexpr double kValueRoom = 4e-6;
+// What float32 evaluation of a length may differ from exact arithmetic, relative to the coordinates it is computed
+// from.
 constexpr double kLengthRoom = 1e-6;
-
-bool is_zero(const Interval& i) {
-  return i.hi <= 0;
-}
 
 Instruction with_operator(Instruction i, Operator op) {
   i.code = (i.code & 0xff) | static_cast<std::uint32_t>(op) << 8;
@@ -24,58 +22,38 @@ Instruction with_operand(Instruction i, Operand operand) {
   return i;
 }
 
-double ricci(double a, double b, double t) {
-  const double big = std::max(a, b), small = std::min(a, b);
-  return big > 0 ? big * std::pow(1 + std::pow(small / big, t), 1 / t) : 0;
-}
-
-// Bounds of an operator whose operands are not 0 throughout.
-Interval combine(Operator op, const Operation& o, const Interval& a, const Interval& b) {
-  switch (op) {
-    case Operator::kSum:
-      return {a.lo + b.lo, a.hi + b.hi};
-    case Operator::kMax:
-      return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)};
-    case Operator::kMin:
-      return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
-    case Operator::kSubtract:
-      return {std::max(std::min(a.lo, 1 - b.hi) - kValueRoom, 0.0), std::min(a.hi, 1 - b.lo)};
-    case Operator::kSubtractFrom:
-      return {std::max(std::min(b.lo, 1 - a.hi) - kValueRoom, 0.0), std::min(b.hi, 1 - a.lo)};
-    case Operator::kRicci:
-      return {ricci(a.lo, b.lo, o.exponent), ricci(a.hi, b.hi, o.exponent) + kValueRoom};
-    case Operator::kGradient:
-    case Operator::kGradientTable:
-      // Between the maximum and the blend at theta = 0, whatever the angle.
-      return {std::max(a.lo, b.lo), std::max(a.hi, b.hi) + o.silhouette_bound * std::min(a.hi, b.hi) + kValueRoom};
-    default:
-      return b;
-  }
+bool is_n_ary(Operator op) {
+  return op == Operator::kBtk || op == Operator::kSuperelliptic;
 }
 
 }  // namespace
 
-Interval Pruner::leaf_range(const Leaf& leaf, const Box& box, const dvec3& centre, double radius) const {
-  if (!leaf.support.touches(box)) return {0, 0};
+Pruner::Value Pruner::leaf_value(const Leaf& leaf, const Box& box, const dvec3& centre, double radius) const {
+  const bool is_signed = leaf.law == operators::Law::kSigned;
+  if (!is_signed && !leaf.support.touches(box)) return {{0, 0}, 0, true};
   const double d = leaf.distance(centre);
   const double size = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z), radius}) * leaf.stretch;
   const double reach = radius * leaf.stretch + kLengthRoom * (size + leaf.range + leaf.size[0] + leaf.size[1]);
-  if (d - reach >= leaf.range) return {0, 0};
-  return {std::max(soften(d + reach, leaf.range) - kValueRoom, 0.0), soften(d - reach, leaf.range) + kValueRoom};
+  if (is_signed) return {{(d - reach) * leaf.per_distance, (d + reach) * leaf.per_distance}, 0};
+  if (d - reach >= leaf.range) return {{0, 0}, 0, true};
+  return {{std::max(soften(d + reach, leaf.range) - kValueRoom, 0.0), soften(d - reach, leaf.range) + kValueRoom}, 0};
 }
 
 void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vector<Instruction>& out) {
   const Operator op = i.op();
+  const Mode mode = i.mode();
   Value& left = stack_.back();
   const auto keep_right = [&] {
     out.erase(out.begin() + left.begin, out.begin() + right.begin);
     if (fused) out.push_back(with_operator(i, Operator::kPush));
     left.range = right.range;
+    left.is_zero = false;
   };
   const auto keep_left = [&] { out.resize(right.begin); };
   const auto vanish = [&] {
     out.resize(left.begin);
     left.range = {0, 0};
+    left.is_zero = true;
   };
   // f - 0 = min(f, 1): only sums and blends pass 1.
   const auto clamp = [&] {
@@ -83,40 +61,125 @@ void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vec
     out.push_back(with_operator(with_operand(i, Operand::kZero), Operator::kSubtract));
     left.range = {std::min(left.range.lo, 1.0), 1 + kValueRoom};
   };
-  const bool left_zero = is_zero(left.range), right_zero = is_zero(right.range);
-  switch (op) {
-    case Operator::kMin:
-      if (left_zero || right_zero) return vanish();
-      break;
-    case Operator::kSubtract:
-      if (left_zero) return vanish();
-      if (right_zero) return keep_left(), clamp();
-      break;
-    case Operator::kSubtractFrom:
-      if (right_zero) return vanish();
-      if (left_zero) return keep_right(), clamp();
-      break;
-    case Operator::kMax:
-      if (right_zero || left.range.lo > right.range.hi) return keep_left();
-      if (left_zero || right.range.lo > left.range.hi) return keep_right();
-      break;
-    default:
-      if (right_zero) return keep_left();
-      if (left_zero) return keep_right();
+  const bool left_zero = left.is_zero, right_zero = right.is_zero;
+  if (left_zero || right_zero) {
+    // Positive fields. What a form or a difference makes of a 0 depends on which operand it is.
+    const bool is_difference =
+        op == Operator::kSubtract || op == Operator::kSubtractFrom || mode.form == operators::Form::kDifference;
+    const bool left_is_first = op != Operator::kSubtractFrom && !mode.is_exchanged;
+    if (is_difference) {
+      if (left_is_first ? left_zero : right_zero) return vanish();
+      return left_is_first ? keep_left() : keep_right(), clamp();
+    }
+    if (op == Operator::kMin || mode.form == operators::Form::kIntersection) return vanish();
+    return right_zero ? keep_left() : keep_right();
   }
-  const Interval range = combine(op, tape_.operations[i.operation], left.range, right.range);
-  if (is_zero(range)) return vanish();
+  if (mode.form == operators::Form::kUnion) {
+    const bool greater = left.range.lo > right.range.hi, less = left.range.hi < right.range.lo;
+    if (op == Operator::kMax && (greater || less)) return greater ? keep_left() : keep_right();
+    if (op == Operator::kMin && (greater || less)) return less ? keep_left() : keep_right();
+  }
+  const Operation& o = tape_.operation(i);
+  if (op == Operator::kBt2) {
+    const int alone = lone_operand(o, mode, left.range, right.range);
+    if (alone >= 0) {
+      (alone == 0) != mode.is_exchanged ? keep_left() : keep_right();
+      if (o.what->term(alone).weight != 1) {
+        convert(instruction(Operand::kZero, Operator::kLinear, 0, o.record + 1 + alone), out);
+      }
+      return;
+    }
+  }
+  const Interval range = binary_interval(op, o, mode, left.range, right.range);
+  const bool is_positive =
+      !mode.is_signed && (op <= Operator::kBernhardt && op != Operator::kMax && op != Operator::kMin);
+  if (is_positive && range.hi <= 0) return vanish();
   out.push_back(i);
   left.range = range;
 }
 
-Interval Pruner::prune(const std::vector<Instruction>& source, std::size_t begin, std::size_t count, const Box& box,
-                       std::vector<Instruction>& out) {
+void Pruner::convert(const Instruction& i, std::vector<Instruction>& out) {
+  Value& value = stack_.back();
+  if (i.op() == Operator::kSoften) {
+    const double range = tape_.operation(i).range;
+    if (value.range.lo >= range) {
+      out.resize(value.begin);
+      value = {{0, 0}, value.begin, true};
+      return;
+    }
+    value.range = {std::max(soften(value.range.hi, range) - kValueRoom, 0.0),
+                   soften(value.range.lo, range) + kValueRoom};
+  } else {
+    if (value.is_zero) out.push_back(instruction(Operand::kZero, Operator::kPush));
+    value.is_zero = false;
+    const auto [factor, offset] = tape_.linear(i);
+    const double a = value.range.lo * factor + offset, b = value.range.hi * factor + offset;
+    const double room = kValueRoom * std::max({std::abs(a), std::abs(b), std::abs(offset)});
+    value.range = {std::min(a, b) - room, std::max(a, b) + room};
+  }
+  out.push_back(i);
+}
+
+void Pruner::join_all(const Instruction& i, std::vector<Instruction>& out) {
+  const Operation& o = tape_.operation(i);
+  const Mode mode = i.mode();
+  const std::size_t count = std::popcount(i.leaf);
+  const std::size_t first = stack_.size() - count;
+  std::vector<Interval> ranges;
+  for (std::size_t n = first; n < stack_.size(); ++n) ranges.push_back(stack_[n].range);
+  const std::size_t begin = stack_[first].begin;
+  std::uint32_t mask = i.leaf;
+  if (i.op() == Operator::kBtk) mask = active_operands(o, mode, i.leaf, ranges);
+  if (mask != i.leaf) {
+    // Backwards, so that what is yet to go keeps its place.
+    std::size_t end = out.size();
+    std::vector<Interval> left;
+    std::size_t at = stack_.size();
+    for (std::uint32_t bit = kMaxOperands; bit-- > 0;) {
+      if (!(i.leaf >> bit & 1)) continue;
+      --at;
+      if (mask >> bit & 1) {
+        left.insert(left.begin(), stack_[at].range);
+      } else {
+        out.erase(out.begin() + stack_[at].begin, out.begin() + end);
+        end = stack_[at].begin;
+        continue;
+      }
+      end = stack_[at].begin;
+    }
+    ranges = std::move(left);
+  }
+  stack_.resize(first + 1);
+  if (std::has_single_bit(mask)) {
+    const auto operand = static_cast<std::uint32_t>(std::countr_zero(mask));
+    const double weight = o.what->term(operand).weight;
+    stack_.back() = {ranges[0], begin};
+    if (weight != 1) {
+      convert(instruction(Operand::kZero, Operator::kLinear, 0, o.record + 1 + operand), out);
+    }
+    return;
+  }
+  Instruction kept = i;
+  kept.leaf = mask;
+  out.push_back(kept);
+  stack_.back() = {n_ary_interval(i.op(), o, mode, mask, std::move(ranges)), begin};
+}
+
+Pruned Pruner::prune(const std::vector<Instruction>& source, std::size_t begin, std::size_t count, const Box& box,
+                     std::vector<Instruction>& out) {
   const dvec3 centre = (box.min + box.max) * 0.5;
   const double radius = length(box.max - box.min) * 0.5;
   stack_.clear();
   for (std::size_t n = 0; n < count; ++n) {
     const Instruction i = source[begin + n];
+    if (i.op() == Operator::kLinear || i.op() == Operator::kSoften) {
+      convert(i, out);
+      continue;
+    }
+    if (is_n_ary(i.op())) {
+      join_all(i, out);
+      continue;
+    }
     Value right{{0, 0}, out.size()};
     bool fused = true;
     if (i.operand() == Operand::kPop) {
@@ -124,16 +187,21 @@ Interval Pruner::prune(const std::vector<Instruction>& source, std::size_t begin
       stack_.pop_back();
       fused = false;
     } else if (i.is_leaf()) {
-      right.range = leaf_range(tape_.leaves[i.index], box, centre, radius);
+      right = leaf_value(tape_.leaves[i.index], box, centre, radius);
+      right.begin = out.size();
+    } else {
+      // The constant 0: what is taken away where nothing is left to take, or what a conversion starts from.
+      right.is_zero = i.op() != Operator::kPush;
     }
     if (i.op() == Operator::kPush) {
-      if (!is_zero(right.range)) out.push_back(i);
+      if (!right.is_zero) out.push_back(i);
       stack_.push_back(right);
     } else {
       join(i, right, fused, out);
     }
   }
-  return stack_.empty() ? Interval{} : stack_.back().range;
+  if (stack_.empty()) return {{0, 0}, true};
+  return {stack_.back().range, stack_.back().is_zero};
 }
 
 }  // namespace isofield::blobtree

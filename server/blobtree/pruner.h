@@ -5,12 +5,16 @@
 
 #include <vector>
 
+#include "blobtree/intervals.h"
 #include "blobtree/tape.h"
 
 namespace isofield::blobtree {
 
-struct Interval {
-  double lo = 0, hi = 0;
+// What is left of a tape in a box.
+struct Pruned {
+  Interval range;
+  // A positive field that is 0 throughout: it has no code.
+  bool is_zero = false;
 };
 
 class Pruner {
@@ -19,21 +23,24 @@ class Pruner {
   explicit Pruner(const Tape& tape) : tape_(tape) {}
 
   // Appends to `out` the part of source[begin, begin + count) that is alive in the box and returns bounds of the field
-  // there: [0, 0] with nothing appended where it is 0 throughout. `out` may be `source`. The bounds hold for the
-  // device's float32 results too.
-  Interval prune(const std::vector<Instruction>& source, std::size_t begin, std::size_t count, const Box& box,
-                 std::vector<Instruction>& out);
+  // there. `out` may be `source`. The bounds hold for the device's float32 results too.
+  Pruned prune(const std::vector<Instruction>& source, std::size_t begin, std::size_t count, const Box& box,
+               std::vector<Instruction>& out);
 
  private:
-  // An operand whose code starts at `begin` in the output. One that is 0 throughout has no code.
+  // An operand whose code starts at `begin` in the output. A positive one that is 0 throughout has no code.
   struct Value {
     Interval range;
     std::size_t begin;
+    bool is_zero = false;
   };
-  Interval leaf_range(const Leaf& leaf, const Box& box, const dvec3& centre, double radius) const;
+  Value leaf_value(const Leaf& leaf, const Box& box, const dvec3& centre, double radius) const;
   // Combines the value on top of the stack with the right operand of i: a leaf fused into i, or (`fused` false) a value
   // whose code has been appended already.
   void join(const Instruction& i, const Value& right, bool fused, std::vector<Instruction>& out);
+  // Applies a conversion, or an operator of as many values as its mask says, to what is on top of the stack.
+  void convert(const Instruction& i, std::vector<Instruction>& out);
+  void join_all(const Instruction& i, std::vector<Instruction>& out);
 
   const Tape& tape_;
   std::vector<Value> stack_;

@@ -3,33 +3,33 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "blobtree/affine.h"
 #include "blobtree/distance.h"
-#include "operators/opening.h"
-#include "operators/silhouette.h"
+#include "operators/operator.h"
 
 namespace isofield::blobtree {
 
-enum class NodeKind { kPrimitive, kSum, kMax, kMin, kDifference, kRicci, kGradient, kTransform };
+enum class NodeKind { kPrimitive, kOperator, kTransform, kSoften, kHarden };
 
 struct Node {
   NodeKind kind = NodeKind::kPrimitive;
-  std::string path;                     // for errors: nodes[3] 'arm/upper'
-  std::vector<std::uint32_t> children;  // places in Scene::nodes
+  operators::Law law = operators::Law::kPositive;  // of what it yields
+  std::string path;                                // for errors: nodes[3] 'arm/upper'
+  std::vector<std::uint32_t> children;             // places in Scene::nodes
 
   // kPrimitive: its frame maps the shape's own frame to the node's.
   Shape shape = Shape::kSphere;
   ShapeSize size{};
+  // kPrimitive of a positive field, kSoften
   double range = 0;
   // kPrimitive, kTransform
   Affine frame;
 
-  double exponent = 1;               // kRicci
-  operators::Opening opening{};      // kGradient
-  operators::Silhouette silhouette;  // kGradient
+  std::shared_ptr<const operators::Operator> op;  // kOperator
 };
 
 struct Scene {
@@ -43,8 +43,14 @@ struct Scene {
 struct SceneLimits {
   std::uint64_t max_nodes = 1'000'000;
   std::uint64_t max_primitives = 1'000'000;  // after instancing
-  std::uint64_t max_profiles = 2'000;        // different openings and silhouettes: a table of 4 KiB each
+  std::uint64_t max_profiles = 2'000;        // different openings, silhouettes and curves: a table of 4 to 16 KiB each
 };
+
+// Different volumes that one scene's operators may use: each takes a binding of the kernels.
+inline constexpr std::size_t kMaxVolumes = 4;
+
+// Operands of one n-ary operator.
+inline constexpr std::size_t kMaxOperands = 16;
 
 // Lengths and coordinates beyond these would leave the range in which float32 squares are finite.
 inline constexpr double kMaxCoordinate = 1e9;

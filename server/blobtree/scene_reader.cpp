@@ -11,6 +11,7 @@
 #include <set>
 
 #include "blobtree/node_reader.h"
+#include "blobtree/operator_reader.h"
 
 namespace isofield::blobtree {
 namespace {
@@ -93,15 +94,67 @@ absl::Status sort_from(const Scene& scene, std::uint32_t start, std::vector<Mark
   return absl::OkStatus();
 }
 
-// Cycles that the root does not reach are refused too: the file is wrong, though this model would not show it.
+absl::Status check_operand_count(const Node& node) {
+  const auto count = node.children.size();
+  const OperandCount wanted = operand_count(*node.op);
+  if (count >= wanted.least && count <= wanted.most) return absl::OkStatus();
+  std::string expected = absl::StrCat("at least ", wanted.least, wanted.least == 1 ? " child" : " children");
+  if (wanted.most == wanted.least) {
+    expected = absl::StrCat("exactly ", wanted.least, " children");
+  } else if (wanted.most <= kMaxOperands) {
+    expected = absl::StrCat(wanted.least, " to ", wanted.most, " children");
+  }
+  return absl::InvalidArgumentError(absl::StrCat(node.path, ".children = [", count, " children]: expected ", expected));
+}
+
+// Children before parents: each operator takes as many children as it can, all of one law.
+absl::Status check_operands(Scene& scene, const std::vector<std::uint32_t>& order) {
+  const auto name = [](operators::Law law) { return law == operators::Law::kSigned ? "SIGNED" : "POSITIVE"; };
+  const auto other = [](operators::Law law) {
+    return law == operators::Law::kSigned ? "; soften makes a signed field positive"
+                                          : "; harden makes a positive field signed";
+  };
+  for (const std::uint32_t index : order) {
+    Node& node = scene.nodes[index];
+    operators::Law wanted = node.law;
+    switch (node.kind) {
+      case NodeKind::kPrimitive:
+        continue;
+      case NodeKind::kTransform:
+        node.law = scene.nodes[node.children[0]].law;
+        continue;
+      case NodeKind::kSoften:
+        wanted = operators::Law::kSigned;
+        break;
+      case NodeKind::kHarden:
+        wanted = operators::Law::kPositive;
+        break;
+      case NodeKind::kOperator:
+        if (absl::Status s = check_operand_count(node); !s.ok()) return s;
+        if (operators::takes_either_law(node.op->kind)) node.law = wanted = scene.nodes[node.children[0]].law;
+        break;
+    }
+    for (const std::uint32_t child : node.children) {
+      const Node& c = scene.nodes[child];
+      if (c.law == wanted) continue;
+      return absl::InvalidArgumentError(absl::StrCat(
+          node.path, node.kind == NodeKind::kOperator ? ".children: " : ".child: ", c.path, " yields a ", name(c.law),
+          " field, expected a ", name(wanted), " one", node.kind == NodeKind::kOperator ? other(c.law) : ""));
+    }
+  }
+  return absl::OkStatus();
+}
+
+// Cycles and misfits that the root does not reach are refused too: the file is wrong, though this model would not show
+// it.
 absl::Status sort_nodes(Scene& scene) {
   std::vector<Mark> marks(scene.nodes.size(), Mark::kNew);
   if (absl::Status s = sort_from(scene, scene.root, marks, scene.order); !s.ok()) return s;
-  std::vector<std::uint32_t> unreached;
+  std::vector<std::uint32_t> all = scene.order;
   for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
-    if (absl::Status s = sort_from(scene, i, marks, unreached); !s.ok()) return s;
+    if (absl::Status s = sort_from(scene, i, marks, all); !s.ok()) return s;
   }
-  return absl::OkStatus();
+  return check_operands(scene, all);
 }
 
 // What the root stands for when every use of a shared node counts.
@@ -128,18 +181,28 @@ absl::Status check_instances(const Scene& scene, const SceneLimits& limits) {
   return absl::OkStatus();
 }
 
-// Each opening and silhouette is a table on the device.
+// Each opening, silhouette and curve is a table on the device, each volume a buffer of its own.
 absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
   std::set<operators::Opening> openings;
   std::set<operators::Silhouette> silhouettes;
+  std::set<operators::SampledCurve> curves;
+  std::set<operators::VolumeKey> volumes;
   for (const Node& node : scene.nodes) {
-    if (node.kind != NodeKind::kGradient) continue;
-    openings.insert(node.opening);
-    silhouettes.insert(node.silhouette);
-    if (openings.size() + silhouettes.size() > limits.max_profiles) {
+    if (!node.op) continue;
+    const operators::Operator& op = *node.op;
+    if (op.is_steered()) openings.insert(op.opening);
+    if (op.kind == operators::Kind::kGradient) silhouettes.insert(op.silhouette);
+    if (op.kind == operators::Kind::kFunctional) curves.insert(op.curve);
+    if (op.has_volume()) volumes.insert(operators::volume_key(op));
+    if (openings.size() + silhouettes.size() + curves.size() > limits.max_profiles) {
       return absl::InvalidArgumentError(absl::StrCat(node.path, ".opening: more than ", limits.max_profiles,
                                                      " different openings and silhouettes in one scene: expected at "
                                                      "most so many; nodes may share them"));
+    }
+    if (volumes.size() > kMaxVolumes) {
+      return absl::InvalidArgumentError(absl::StrCat(node.path, ".volume: more than ", kMaxVolumes,
+                                                     " different volumes in one scene: expected at most so many; "
+                                                     "operators of equal silhouette and size share one"));
     }
   }
   return absl::OkStatus();
@@ -147,7 +210,7 @@ absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
 
 }  // namespace
 
-absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits) {
+absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits, const OperatorTable& custom) {
   const auto count = static_cast<std::size_t>(message.nodes_size());
   if (count == 0) return absl::InvalidArgumentError("nodes = []: expected at least 1 node");
   if (count > limits.max_nodes) {
@@ -160,7 +223,7 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
     Node& node = scene.nodes[i];
     node.path = path_of(static_cast<int>(i), message.nodes(i));
     if (absl::Status s = references.add(message.nodes(i), i, node.path); !s.ok()) return s;
-    if (absl::Status s = read_node(message.nodes(i), node); !s.ok()) return s;
+    if (absl::Status s = read_node(message.nodes(i), custom, node); !s.ok()) return s;
   }
   for (std::size_t i = 0; i < count; ++i) {
     for (const std::string* reference : child_references(message.nodes(i))) {

@@ -25,18 +25,19 @@ std::uint32_t round_depth(std::uint32_t depth) {
 
 KernelKind KernelKind::of(const blobtree::Tape& tape) {
   KernelKind kind{tape.operand_set, tape.operator_set | bit(Operator::kPush), round_depth(tape.stack_depth)};
+  kind.arity = round_depth(tape.arity);
   // Pruning may turn an exchanged difference with nothing to take away into a clamp.
   if (kind.operator_set & bit(Operator::kSubtractFrom)) kind.operator_set |= bit(Operator::kSubtract);
   return kind;
 }
 
 KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
-  return {tape.operand_set & ~bit(Operand::kPop), bit(Operator::kPush), 0, 1};
+  return {tape.operand_set & ~(bit(Operand::kPop) | bit(Operand::kZero)), bit(Operator::kPush), 0, 1};
 }
 
 absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
   const Key key{reinterpret_cast<std::uintptr_t>(shader.data()), kind.operand_set, kind.operator_set, kind.stack_depth,
-                kind.tape_length};
+                kind.tape_length, kind.arity};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
   bool compiles = false;
@@ -50,8 +51,8 @@ absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shad
     kernel = it->second;
   }
   if (compiles) {
-    const std::array<std::uint32_t, 4> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
-                                                 kind.tape_length};
+    const std::array<std::uint32_t, 5> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
+                                                 kind.tape_length, kind.arity};
     auto pipeline = gpu::Pipeline::create(device_, shader, constants);
     if (!pipeline.ok()) {
       // A later request may find the memory that was missing.

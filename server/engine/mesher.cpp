@@ -38,7 +38,7 @@ struct Constants {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   float iso;
-  std::uint32_t is_capped;
+  std::uint32_t flags;  // 1: capped, 2: a signed field
 };
 
 using Pair = std::array<std::uint32_t, 2>;
@@ -89,14 +89,15 @@ class Run {
     ISOFIELD_ASSIGN_OR_RETURN(SurfaceBricks found, surface_bricks(scene_.tape(), request_, most, callbacks_.cancelled));
     const Lattice& lattice = found.lattice;
     list_ = std::move(found.list);
+    const bool is_signed = scene_.tape().law == operators::Law::kSigned;
     constants_ = {{static_cast<float>(lattice.origin.x), static_cast<float>(lattice.origin.y),
                    static_cast<float>(lattice.origin.z)},
                   static_cast<float>(request_.cell_size),
                   {lattice.cells[0], lattice.cells[1], lattice.cells[2], 0},
                   0,
                   0,
-                  static_cast<float>(request_.iso),
-                  request_.bounds ? 1u : 0u};
+                  static_cast<float>(is_signed ? -request_.iso : request_.iso),
+                  (request_.bounds ? 1u : 0u) | (is_signed ? 2u : 0u)};
     return absl::OkStatus();
   }
 

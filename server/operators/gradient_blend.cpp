@@ -11,8 +11,8 @@ namespace isofield::operators {
 namespace {
 
 // M(a, b) for a > 0, b of any sign (b <= 0: outside the blending region, where M = a).
-Curve clamped_profile(const Silhouette& s, double a, double b) {
-  return b > 0 ? s.profile(std::min(b / a, 1.0)) : Curve{1, 0, 0};
+Curve clamped_profile(const Silhouette& s, Silhouette::Half half, double a, double b) {
+  return b > 0 ? s.profile(std::min(b / a, 1.0), half) : Curve{1, 0, 0};
 }
 
 }  // namespace
@@ -37,14 +37,10 @@ Boundary boundary(double f, double t) {
           c_t * l * l + 2 * c * l * lambda_t, 2 * c_t * l * lambda.d1 + 2 * c * (lambda_t * lambda.d1 + l * lambda_ft)};
 }
 
-Blend gradient_blend(double f1, double f2, double theta, const Silhouette& silhouette) {
-  if (f1 < f2) {
-    Blend s = gradient_blend(f2, f1, theta, silhouette);
-    std::swap(s.g1, s.g2);
-    std::swap(s.g11, s.g22);
-    std::swap(s.g1t, s.g2t);
-    return s;
-  }
+namespace {
+
+// f1 >= f2.
+Blend ordered_blend(double f1, double f2, double theta, const Silhouette& silhouette, Silhouette::Half half) {
   const double t = std::tan(theta);
   const Boundary at_max = boundary(f1, t);
   if (f2 <= 0 || f2 <= at_max.k) return {f1, 1, 0, 0, 0, 0, 0, 0, 0};
@@ -54,13 +50,13 @@ Blend gradient_blend(double f1, double f2, double theta, const Silhouette& silho
   const double c = root_of(f1, 2 * f1, [&](double c) {
     const Boundary k = boundary(c, t);
     const double a = f1 - k.k, b = f2 - k.k;
-    const Curve q = clamped_profile(silhouette, a, b);
+    const Curve q = clamped_profile(silhouette, half, a, b);
     const double u = b > 0 ? std::min(b / a, 1.0) : 0;
     return std::pair{c - k.k - a * q.v, 1 - k.k_f * (1 - q.v - (1 - u) * q.d1)};
   });
   const Boundary k = boundary(c, t);
   const double a = f1 - k.k, b = f2 - k.k;
-  const Curve q = clamped_profile(silhouette, a, b);
+  const Curve q = clamped_profile(silhouette, half, a, b);
   const double u = std::clamp(b / a, 0.0, 1.0);
   const double m_a = q.v - u * q.d1, m_b = q.d1;
   const double rest = 1 - m_a - m_b;
@@ -83,6 +79,17 @@ Blend gradient_blend(double f1, double f2, double theta, const Silhouette& silho
   r.g22 = second(0, 1, k.k_f * r.g2, k.k_ff * r.g2).second;
   std::tie(r.g1t, r.g2t) = second(0, 0, k.k_f * r.gt + k.k_t * t_theta, k.k_ff * r.gt + k.k_ft * t_theta);
   return r;
+}
+
+}  // namespace
+
+Blend gradient_blend(double f1, double f2, double theta, const Silhouette& silhouette) {
+  if (f1 >= f2) return ordered_blend(f1, f2, theta, silhouette, Silhouette::Half::kFirst);
+  Blend s = ordered_blend(f2, f1, theta, silhouette, Silhouette::Half::kSecond);
+  std::swap(s.g1, s.g2);
+  std::swap(s.g11, s.g22);
+  std::swap(s.g1t, s.g2t);
+  return s;
 }
 
 }  // namespace isofield::operators

@@ -24,6 +24,7 @@ Curve kappa(double x) {
 }
 
 Curve Opening::theta(double alpha) const {
+  if (!samples.empty()) return samples.at(alpha);
   if (alpha <= alpha0) return {theta0, 0, 0};
   if (alpha >= alpha2) return {theta2, 0, 0};
   const bool rising = alpha > alpha1;
@@ -37,7 +38,12 @@ Curve Opening::theta(double alpha) const {
 }
 
 double Opening::theta_min() const {
+  if (!samples.empty()) return samples.least();
   return std::min({theta0, theta1, theta2});
+}
+
+double picked_opening(double f1, double f2) {
+  return std::min(std::atan2(f2, f1), kPi / 4);
 }
 
 Opening camel() {

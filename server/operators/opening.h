@@ -5,14 +5,17 @@
 #include <compare>
 
 #include "operators/derivatives.h"
+#include "operators/sampled_curve.h"
 
 namespace isofield::operators {
 
-// Radians. 0 <= alpha0 < alpha1 < alpha2 <= pi; thetas within [0, pi/4]; w within [0.05, 20].
+// Radians. 0 <= alpha0 < alpha1 < alpha2 <= pi; thetas within [0, pi/4]; w within [0.05, 20]. Or, where there are any,
+// the samples of theta over [0, pi].
 struct Opening {
   double alpha0, alpha1, alpha2;
   double theta0, theta1, theta2;
   double w0, w1;
+  SampledCurve samples{};
 
   // theta and d theta / d alpha at alpha within [0, pi]; the second derivative is not needed and left 0.
   Curve theta(double alpha) const;
@@ -24,6 +27,10 @@ struct Opening {
 Opening camel();
 Opening organic();
 Opening contact();
+
+// The angle at which the blend with a second field begins at a point of the first one's surface, from the two fields'
+// values there ([G] section 4): at most pi/4.
+double picked_opening(double f1, double f2);
 
 // kappa(x) of eq. 16 for x within [0, 1], with its first derivative.
 Curve kappa(double x);

@@ -2,7 +2,7 @@
 // reference/ and the device's tapes describe operators with.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <compare>
 #include <memory>
 #include <vector>
@@ -52,26 +52,69 @@ struct SampledVolume {
   std::vector<float> values;  // size^3
 };
 
+// The law of the fields that an operator takes and yields. kMax, kMin and kDifference take either.
+constexpr bool takes_either_law(Kind kind) {
+  return kind == Kind::kMax || kind == Kind::kMin || kind == Kind::kDifference;
+}
+constexpr Law law_of(Kind kind) {
+  switch (kind) {
+    case Kind::kRUnion:
+    case Kind::kPasko:
+    case Kind::kSuperelliptic:
+    case Kind::kFunctional:
+    case Kind::kBt2:
+    case Kind::kBtk:
+      return Law::kSigned;
+    default:
+      return Law::kPositive;
+  }
+}
+
+// The least c with g <= (1 + c) max(f1, f2) at every sample.
+inline double sampled_bound(const SampledVolume& v) {
+  double bound = 0;
+  for (int i = 0; i < v.size * v.size * v.size; ++i) {
+    const int most = std::max(i % v.size, i / v.size % v.size);
+    if (most > 0) bound = std::max(bound, double{v.values[i]} * (v.size - 1) / most - 1);
+  }
+  return bound;
+}
+
 // Only what the kind names counts. Angles in radians.
 struct Operator {
   Kind kind = Kind::kMax;
   Form form = Form::kUnion;
 
-  double exponent = 1;                   // kRicci, kSuperelliptic: t
-  Opening opening = camel();             // kGradient, kSampled
-  Silhouette silhouette;                 // kGradient
-  int volume = 0;                        // kGradient: 0, or samples a side
-  double theta1 = 0, theta2 = 0;         // kBarthe, kBernhardt
-  double weight = 1;                     // kBernhardt
-  double a0 = 0, a1 = 1, a2 = 1;         // kPasko
-  std::vector<Term> terms;               // kSuperelliptic, kBt2, kBtk: one an operand, or one for all
-  double conic = 0;                      // kBt2: p
-  bool by_angle = false;                 // kSuperelliptic, kBt2, kBtk: ranges follow the angle between two gradients
-  double omega = 0.01;                   // by_angle
-  SampledCurve curve;                    // kFunctional: H
+  double exponent = 1;            // kRicci, kSuperelliptic: t
+  Opening opening = camel();      // kGradient, kSampled
+  Silhouette silhouette;          // kGradient
+  int volume = 0;                 // kGradient: 0, or samples a side
+  double theta1 = 0, theta2 = 0;  // kBarthe, kBernhardt
+  double weight = 1;              // kBernhardt
+  double a0 = 0, a1 = 1, a2 = 1;  // kPasko
+  std::vector<Term> terms;        // kSuperelliptic, kBt2, kBtk: one an operand, or one for all
+  double conic = 0;               // kBt2: p
+  bool by_angle = false;          // kSuperelliptic, kBt2, kBtk: ranges follow the angle between two gradients
+  double omega = 0.01;            // by_angle
+  SampledCurve curve;             // kFunctional: H
   std::shared_ptr<const SampledVolume> samples;  // kSampled
 
   const Term& term(std::size_t operand) const { return terms[terms.size() == 1 ? 0 : operand]; }
+  // By the angle between two gradients, through an opening function.
+  bool is_steered() const { return kind == Kind::kGradient || kind == Kind::kSampled; }
+  bool has_volume() const { return kind == Kind::kSampled || (kind == Kind::kGradient && volume != 0); }
 };
+
+// What makes two operators' volumes the same.
+struct VolumeKey {
+  Silhouette silhouette;
+  int size = 0;
+  const SampledVolume* samples = nullptr;
+  auto operator<=>(const VolumeKey&) const = default;
+};
+inline VolumeKey volume_key(const Operator& op) {
+  if (op.kind == Kind::kSampled) return {{}, op.samples->size, op.samples.get()};
+  return {op.silhouette, op.volume, nullptr};
+}
 
 }  // namespace isofield::operators

@@ -28,7 +28,16 @@ ProfileTable tabulate(int cells, double range, const std::function<Curve(double)
 }  // namespace
 
 ProfileTable silhouette_table(const Silhouette& silhouette) {
-  return tabulate(kSilhouetteCells, 1, [&](double u) { return silhouette.profile(u); });
+  using Half = Silhouette::Half;
+  const auto half = [&](Half h) {
+    return tabulate(kSilhouetteCells, 1, [&](double u) { return silhouette.profile(u, h); });
+  };
+  ProfileTable table = half(Half::kFirst);
+  if (!silhouette.is_symmetric()) {
+    const ProfileTable second = half(Half::kSecond);
+    table.insert(table.end(), second.begin(), second.end());
+  }
+  return table;
 }
 
 ProfileTable opening_table(const Opening& opening) {
@@ -39,12 +48,19 @@ ProfileTable opening_table(const Opening& opening) {
   });
 }
 
+ProfileTable curve_table(const SampledCurve& curve) {
+  const double low = curve.x().front();
+  return tabulate(kCurveCells, curve.x().back() - low, [&](double x) { return curve.at(low + x); });
+}
+
 double silhouette_bound(const Silhouette& silhouette) {
   double bound = 0;
   constexpr int kSamples = 256;
   for (int i = 1; i <= kSamples; ++i) {
     const double u = static_cast<double>(i) / kSamples;
-    bound = std::max(bound, (silhouette.profile(u).v - 1) / u);
+    for (const auto half : {Silhouette::Half::kFirst, Silhouette::Half::kSecond}) {
+      bound = std::max(bound, (silhouette.profile(u, half).v - 1) / u);
+    }
   }
   return bound * 1.02 + 1e-6;  // between samples
 }

@@ -19,9 +19,14 @@ using ProfileTable = std::vector<CubicCell>;
 inline constexpr int kSilhouetteCells = 256;  // u within [0, 1]
 inline constexpr int kOpeningCells = 256;     // alpha within [0, pi]
 
+// Of a silhouette that is not symmetric: the cells of the first half, then those of the second.
 ProfileTable silhouette_table(const Silhouette& silhouette);
 // tan(theta(alpha)): the operator needs nothing else of theta.
 ProfileTable opening_table(const Opening& opening);
+
+// H of a functional blend over the range of its control points.
+inline constexpr int kCurveCells = 1024;
+ProfileTable curve_table(const SampledCurve& curve);
 
 // The least c with q(u) <= 1 + c u on [0, 1]: M(a, b) <= a + c b bounds the operator from above.
 double silhouette_bound(const Silhouette& silhouette);

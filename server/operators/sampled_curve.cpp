@@ -34,7 +34,8 @@ Curve SampledCurve::at(double at) const {
   const double h = x[i + 1] - x[i], s = (at - x[i]) / h, rise = y[i + 1] - y[i];
   const double left = slope[i] * h, right = slope[i + 1] * h;
   const double c2 = 3 * rise - 2 * left - right, c3 = left + right - 2 * rise;
-  return {y[i] + s * (left + s * (c2 + s * c3)), (left + s * (2 * c2 + 3 * s * c3)) / h, (2 * c2 + 6 * s * c3) / (h * h)};
+  return {y[i] + s * (left + s * (c2 + s * c3)), (left + s * (2 * c2 + 3 * s * c3)) / h,
+          (2 * c2 + 6 * s * c3) / (h * h)};
 }
 
 double SampledCurve::least() const {

@@ -24,6 +24,19 @@ Curve upper_half(const Silhouette& s, double x) {
   return {1 - e * (1 - x), -e * slope, -e * (slope / x2 - 1 / x2 - 2 * (1 - x) / (x2 * x))};
 }
 
+// q = 1 / (s cos w) on the ray at the angle w = atan(u) from the half's axis.
+Curve sampled_profile(const SampledCurve& samples, double u, Silhouette::Half half) {
+  const bool is_second = half == Silhouette::Half::kSecond;
+  const double w = std::atan(u), cos2 = 1 / (1 + u * u);
+  Curve s = samples.at(is_second ? std::numbers::pi / 2 - w : w);
+  if (is_second) s.d1 = -s.d1;
+  const double q = 1 / (s.v * std::sqrt(cos2));
+  const double fall = s.d1 / s.v;
+  const double q_w = q * (u - fall);
+  const double q_ww = q_w * (u - fall) + q * (1 / cos2 - s.d2 / s.v + fall * fall);
+  return {q, q_w * cos2, cos2 * cos2 * (q_ww - 2 * u * q_w)};
+}
+
 }  // namespace
 
 Curve smooth_step_e(double x) {
@@ -48,8 +61,9 @@ Curve phi(double x) {
   return {y, slope, -e.d2 * slope * slope * slope};
 }
 
-Curve Silhouette::profile(double u) const {
+Curve Silhouette::profile(double u, Half half) const {
   if (u <= 0) return {1, 0, 0};
+  if (kind == Kind::kSampled) return sampled_profile(samples, u, half);
   // The ray of slope u meets the curve where x = u y(x); there M = 1, so q(u) = 1 / y.
   const double x = root_of(0, 1, [&](double x) {
     const Curve y = upper_half(*this, x);

@@ -5,16 +5,21 @@
 #include <compare>
 
 #include "operators/derivatives.h"
+#include "operators/sampled_curve.h"
 
 namespace isofield::operators {
 
 struct Silhouette {
-  enum class Kind { kSmooth, kBulge };
+  enum class Kind { kSmooth, kBulge, kSampled };
   Kind kind = Kind::kSmooth;
-  double k = 0;  // kBulge: within [0, 1]
+  double k = 0;            // kBulge: within [0, 1]
+  SampledCurve samples{};  // kSampled: s(phi) over [0, pi/2] from the f1 axis
 
+  // Which half of the curve a profile is of: where f1 >= f2, or where f2 > f1. Only sampled curves tell them apart.
+  enum class Half { kFirst, kSecond };
+  bool is_symmetric() const { return kind != Kind::kSampled; }
   // q, q', q'' at u within [0, 1]. q(0) = 1 and q'(0) = 0 exactly.
-  Curve profile(double u) const;
+  Curve profile(double u, Half half = Half::kFirst) const;
   auto operator<=>(const Silhouette&) const = default;
 };
 

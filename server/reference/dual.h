@@ -20,8 +20,16 @@ struct Dual {
   friend Dual operator-(const Dual& a, const Dual& b) { return {a.v - b.v, a.d - b.d}; }
   friend Dual operator-(const Dual& a) { return {-a.v, a.d * -1.0}; }
   friend Dual operator*(const Dual& a, const Dual& b) { return {a.v * b.v, a.d * b.v + b.d * a.v}; }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    const double g = a.v / b.v;
+    return {g, (a.d - b.d * g) * (1 / b.v)};
+  }
   bool operator==(const Dual&) const = default;
 };
+
+inline double value_of(const Dual& a) {
+  return a.v;
+}
 
 // f(a) of a function with value f and derivative slope at a.
 inline Dual chain(const Dual& a, double f, double slope) {
@@ -40,6 +48,12 @@ inline Dual reciprocal(const Dual& a) {
 inline Dual atan2(const Dual& y, const Dual& x) {
   const double square = x.v * x.v + y.v * y.v;
   return {std::atan2(y.v, x.v), y.d * (x.v / square) - x.d * (y.v / square)};
+}
+
+// a >= 0; 0 at 0, with the derivative that an exponent above 1 has there.
+inline Dual pow(const Dual& a, double exponent) {
+  if (a.v <= 0) return 0;
+  return chain(a, std::pow(a.v, exponent), exponent * std::pow(a.v, exponent - 1));
 }
 
 using DualVec3 = blobtree::Vec3<Dual>;

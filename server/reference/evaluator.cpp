@@ -16,8 +16,8 @@ Primitive place(const Node& node, const Affine& to_world) {
   const Affine frame = to_world.after(node.frame);
   // The reader refuses singular transforms; a product of many may still underflow, to a primitive that is nowhere.
   const std::optional<Affine> inverse = frame.inverse();
-  if (!inverse) return {node.shape, node.size, 0, Affine::scale({}), {}};
-  return {node.shape, node.size, node.range, {inverse->linear, {}}, frame.offset};
+  if (!inverse) return {node.shape, node.size, 0, node.law, Affine::scale({}), {}};
+  return {node.shape, node.size, node.range, node.law, {inverse->linear, {}}, frame.offset};
 }
 
 // The primitive's range in the world, along the direction in which its frame shrinks most.
@@ -50,6 +50,7 @@ Evaluator::Evaluator(const blobtree::Scene& scene) : nodes_(scene.nodes) {
       primitives_.push_back(place(node, top.to_world));
       top.length = world_range(node, top.to_world);
     }
+    if (node.kind == NodeKind::kSoften) top.length = node.range * top.to_world.stretch().least;
     step.length = top.length;
     steps_.push_back(step);
     stack.pop_back();
@@ -65,10 +66,16 @@ FieldState Evaluator::state(const dvec3& p) const {
       stack.push_back(evaluate_primitive(primitives_[step.primitive], p));
       continue;
     }
-    const OperatorUse use{node.kind, node.exponent, &node.opening, &node.silhouette, step.length};
     const std::size_t first = stack.size() - step.children;
-    for (std::size_t i = first + 1; i < stack.size(); ++i) stack[first] = combine(use, stack[first], stack[i]);
-    stack.resize(first + 1);
+    if (node.kind == NodeKind::kSoften) {
+      stack[first] = soften(stack[first], node.range);
+    } else if (node.kind == NodeKind::kHarden) {
+      stack[first] = harden(stack[first]);
+    } else if (step.children > 1) {
+      const OperatorUse use{node.op.get(), node.law, step.length};
+      stack[first] = combine(use, {stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end()});
+      stack.resize(first + 1);
+    }
   }
   return stack.back();
 }

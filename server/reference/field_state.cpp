@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "operators/classic_blends.h"
 #include "operators/gradient_blend.h"
+#include "operators/ranged_blends.h"
+#include "operators/signed_blends.h"
 #include "reference/jet.h"
 
 namespace isofield::reference {
 namespace {
 
 using blobtree::dvec3;
-using blobtree::NodeKind;
+using operators::Form;
+using operators::Kind;
 
 // |steering * length|^2 below which a steering vector counts as (nearly) null.
 constexpr double kNullBelow = 1e-3;
@@ -32,31 +36,15 @@ FieldState minimum(const FieldState& a, const FieldState& b) {
   return a.field.v <= b.field.v ? a : b;
 }
 
-FieldState difference(const FieldState& a, const FieldState& b) {
-  const FieldState outside_b{Dual(1) - b.field, scaled(b.steering, -1)};
-  const FieldState r = minimum(a, outside_b);
-  return r.field.v > 0 ? r : FieldState{};
-}
-
-FieldState ricci(double t, const FieldState& a, const FieldState& b) {
-  if (a.field.v <= 0) return b;
-  if (b.field.v <= 0) return a;
-  const double f1 = a.field.v, f2 = b.field.v, big = std::max(f1, f2), small = std::min(f1, f2);
-  const double g = big * std::pow(1 + std::pow(small / big, t), 1 / t);
-  // g_1 = (f1 / g)^(t - 1) and the like; g_1j follows from d(f1 / g).
-  const double g1 = std::pow(f1 / g, t - 1), g2 = std::pow(f2 / g, t - 1);
-  const Dual field{g, a.field.d * g1 + b.field.d * g2};
-  const auto partial = [&](const Dual& f) {
-    const Dual ratio = f * reciprocal(field);
-    return chain(ratio, std::pow(ratio.v, t - 1), (t - 1) * std::pow(ratio.v, t - 2));
-  };
-  return {field, scaled(a.steering, partial(a.field)) + scaled(b.steering, partial(b.field))};
+// An operator of two fields from its value and partials.
+FieldState joined(const FieldState& a, const FieldState& b, const operators::Binary<Dual>& o) {
+  return {o.g, scaled(a.steering, o.g1) + scaled(b.steering, o.g2)};
 }
 
 // The opening angle with its derivatives: theta(alpha), drawn to theta_min where a steering vector vanishes
 // ([G] section 7). Drawn in tan(theta), which is what the operator uses.
 Dual opening_angle(const OperatorUse& use, const DualVec3& a, const DualVec3& b) {
-  const double least = use.opening->theta_min();
+  const double least = use.op->opening.theta_min();
   const Dual square(use.length * use.length);
   const Dual n1 = dot(a, a) * square, n2 = dot(b, b) * square;
   if (std::min(n1.v, n2.v) <= kNull) return least;
@@ -64,23 +52,140 @@ Dual opening_angle(const OperatorUse& use, const DualVec3& a, const DualVec3& b)
   const DualVec3 u = scaled(a, reciprocal(sqrt(dot(a, a)))), v = scaled(b, reciprocal(sqrt(dot(b, b))));
   const DualVec3 normal = cross(u, v);
   const Dual alpha = atan2(sqrt(dot(normal, normal)), dot(u, v));
-  const operators::Curve theta = use.opening->theta(alpha.v);
+  const operators::Curve theta = use.op->opening.theta(alpha.v);
   const double tangent = std::tan(theta.v);
   const Dual least_tangent(std::tan(least));
   const Dual t = least_tangent + (chain(alpha, tangent, (1 + tangent * tangent) * theta.d1) - least_tangent) * weight;
   return chain(t, std::atan(t.v), 1 / (1 + t.v * t.v));
 }
 
+// The blend at a given angle, from profiles or, where the operator has no others, from its samples.
+operators::Blend steered_blend(const operators::Operator& op, double f1, double f2, double theta) {
+  return operators::gradient_blend(f1, f2, theta, op.silhouette);
+}
+
 FieldState gradient_blend(const OperatorUse& use, const FieldState& a, const FieldState& b) {
-  if (a.field.v <= 0) return b;
-  if (b.field.v <= 0) return a;
   const Dual theta = opening_angle(use, a.steering, b.steering);
-  const operators::Blend g = operators::gradient_blend(a.field.v, b.field.v, theta.v, *use.silhouette);
+  const operators::Blend g = steered_blend(*use.op, a.field.v, b.field.v, theta.v);
   const dvec3& f1 = a.field.d;
   const dvec3& f2 = b.field.d;
   const Dual g1{g.g1, f1 * g.g11 + f2 * g.g12 + theta.d * g.g1t};
   const Dual g2{g.g2, f1 * g.g12 + f2 * g.g22 + theta.d * g.g2t};
   return {{g.g, f1 * g.g1 + f2 * g.g2 + theta.d * g.gt}, scaled(a.steering, g1) + scaled(b.steering, g2)};
+}
+
+// The angle between the steering vectors of two signed fields: its cosine, 0 where one of them vanishes, and the ratio
+// of their lengths, within [1e-3, 1e3].
+struct Angle {
+  Dual cosine, ratio;
+};
+Angle angle_between(const FieldState& a, const FieldState& b) {
+  const Dual n1 = dot(a.steering, a.steering), n2 = dot(b.steering, b.steering);
+  if (std::min(n1.v, n2.v) <= 1e-24) return {0.0, 1.0};
+  Dual cosine = dot(a.steering, b.steering) / (sqrt(n1) * sqrt(n2));
+  if (std::abs(cosine.v) >= 1) cosine = cosine.v > 0 ? 1.0 : -1.0;
+  Dual ratio = sqrt(n1 / n2);
+  if (ratio.v < 1e-3 || ratio.v > 1e3) ratio = std::clamp(ratio.v, 1e-3, 1e3);
+  return {cosine, ratio};
+}
+
+FieldState bt2(const operators::Operator& op, const FieldState& a, const FieldState& b) {
+  const operators::Term &t1 = op.term(0), &t2 = op.term(1);
+  operators::Reach<Dual> r1{t1.range, t1.weight}, r2{t2.range, t2.weight};
+  Dual conic = op.conic;
+  if (op.by_angle) {
+    const Angle angle = angle_between(a, b);
+    eliminate_bulge(r1, r2, angle.cosine, angle.ratio, op.omega);
+    // The conic narrows with the ranges.
+    conic = r1.range * r2.range * Dual(op.conic / (t1.range * t2.range));
+  }
+  return joined(a, b, operators::bt2(a.field, b.field, r1, r2, conic));
+}
+
+// Unions of two operands in their order.
+FieldState unite(const OperatorUse& use, const FieldState& a, const FieldState& b) {
+  const operators::Operator& op = *use.op;
+  // A positive field of 0 leaves the other untouched.
+  if (use.law == operators::Law::kPositive && op.kind != Kind::kMin) {
+    if (a.field.v <= 0) return b;
+    if (b.field.v <= 0) return a;
+  }
+  switch (op.kind) {
+    case Kind::kSum:
+      return {a.field + b.field, a.steering + b.steering};
+    case Kind::kMax:
+      return a.field.v >= b.field.v ? a : b;
+    case Kind::kMin:
+    case Kind::kDifference:  // of positive fields it is the intersection, by duality the union, with a complement
+      return minimum(a, b);
+    case Kind::kRicci:
+      return joined(a, b, operators::ricci(a.field, b.field, op.exponent));
+    case Kind::kGradient:
+    case Kind::kSampled:
+      return gradient_blend(use, a, b);
+    case Kind::kClean:
+      return joined(a, b, operators::clean_union(a.field, b.field));
+    case Kind::kBarthe:
+      return joined(a, b, operators::barthe_blend(a.field, b.field, std::tan(op.theta1), std::tan(op.theta2)));
+    case Kind::kBernhardt:
+      return joined(a, b,
+                    operators::bernhardt_blend(a.field, b.field, std::tan(op.theta1), std::tan(op.theta2), op.weight));
+    case Kind::kRUnion:
+      return joined(a, b, operators::pasko_blend(a.field, b.field, 0, 1, 1));
+    case Kind::kPasko:
+      return joined(a, b, operators::pasko_blend(a.field, b.field, op.a0, op.a1, op.a2));
+    case Kind::kFunctional:
+      return joined(a, b, operators::functional_blend(a.field, b.field, op.curve));
+    case Kind::kBt2:
+      return bt2(op, a, b);
+    case Kind::kSuperelliptic:
+    case Kind::kBtk:
+      break;
+  }
+  return a;  // n-ary
+}
+
+FieldState unite_all(const OperatorUse& use, const std::vector<FieldState>& x) {
+  const operators::Operator& op = *use.op;
+  std::vector<operators::Reach<Dual>> reach;
+  std::vector<double> powers;
+  std::vector<Dual> fields;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const operators::Term& t = op.term(i);
+    reach.push_back({t.range, t.weight});
+    powers.push_back(t.power);
+    fields.push_back(x[i].field);
+  }
+  if (op.by_angle) {
+    const Angle angle = angle_between(x[0], x[1]);
+    eliminate_bulge(reach[0], reach[1], angle.cosine, angle.ratio, op.omega);
+  }
+  FieldState r;
+  std::vector<Dual> partials;
+  if (op.kind == Kind::kBtk) {
+    operators::Rooted<Dual> root = operators::btk(fields, reach, powers);
+    r.field = root.g;
+    partials = std::move(root.partials);
+  } else {
+    r.field = 1.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const auto bracket = operators::superelliptic_bracket(fields[i], reach[i].range, op.exponent);
+      r.field = r.field - bracket.value;
+      partials.push_back(bracket.fall);
+    }
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) r.steering = r.steering + scaled(x[i].steering, partials[i]);
+  return r;
+}
+
+// 1 - f of a positive field, -f of a signed one.
+FieldState complement(const OperatorUse& use, const FieldState& a) {
+  return {Dual(use.law == operators::Law::kSigned ? 0 : 1) - a.field, scaled(a.steering, -1)};
+}
+
+// What is left of a positive complement: 0 where it would be negative.
+FieldState clamped(const OperatorUse& use, const FieldState& a) {
+  return use.law == operators::Law::kPositive && a.field.v <= 0 ? FieldState{} : a;
 }
 
 }  // namespace
@@ -94,30 +199,63 @@ FieldState evaluate_primitive(const Primitive& primitive, const dvec3& p) {
   };
   const auto& rows = primitive.to_local.linear;
   const blobtree::Vec3<Jet> jets{seed(q.x, rows[0]), seed(q.y, rows[1]), seed(q.z, rows[2])};
-  const Jet f = blobtree::soften(blobtree::shape_distance(primitive.shape, jets, primitive.size), primitive.range);
+  Jet f = blobtree::shape_distance(primitive.shape, jets, primitive.size);
+  if (primitive.law == operators::Law::kPositive) f = blobtree::soften(f, primitive.range);
   const auto component = [&](int i) { return Dual(f.d[i], {f.h[i][0], f.h[i][1], f.h[i][2]}); };
   return {{f.v, {f.d[0], f.d[1], f.d[2]}}, {component(0), component(1), component(2)}};
 }
 
-FieldState combine(const OperatorUse& use, const FieldState& a, const FieldState& b) {
-  switch (use.kind) {
-    case NodeKind::kSum:
-      return {a.field + b.field, a.steering + b.steering};
-    case NodeKind::kMax:
-      return a.field.v >= b.field.v ? a : b;
-    case NodeKind::kMin:
-      return minimum(a, b);
-    case NodeKind::kDifference:
-      return difference(a, b);
-    case NodeKind::kRicci:
-      return ricci(use.exponent, a, b);
-    case NodeKind::kGradient:
-      return gradient_blend(use, a, b);
-    case NodeKind::kPrimitive:
-    case NodeKind::kTransform:
-      break;
+FieldState combine(const OperatorUse& use, const std::vector<FieldState>& operands) {
+  const operators::Operator& op = *use.op;
+  Form form = op.form;
+  if (op.kind == Kind::kDifference) form = Form::kDifference;
+  if (op.kind == Kind::kSuperelliptic || op.kind == Kind::kBtk) {
+    std::vector<FieldState> x = operands;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (form == Form::kIntersection || (form == Form::kDifference && i == 0)) x[i] = complement(use, x[i]);
+    }
+    const FieldState r = unite_all(use, x);
+    return form == Form::kUnion ? r : complement(use, r);
   }
-  return a;  // not operators
+  FieldState r = operands[0];
+  for (std::size_t i = 1; i < operands.size(); ++i) {
+    const FieldState& b = operands[i];
+    if (form == Form::kUnion) {
+      r = unite(use, r, b);
+      continue;
+    }
+    if (use.law == operators::Law::kPositive) {
+      const bool is_zero = r.field.v <= 0 || (form == Form::kIntersection && b.field.v <= 0);
+      if (is_zero) {
+        r = {};
+        continue;
+      }
+      if (op.kind == Kind::kDifference) {  // max(0, min(f1, 1 - f2))
+        r = clamped(use, minimum(r, complement(use, b)));
+        continue;
+      }
+      if (form == Form::kDifference && b.field.v <= 0 && r.field.v < 1) continue;
+    }
+    // Clamped: the complement of a field above 1 is as good as 0.
+    const FieldState first = clamped(use, complement(use, r));
+    const FieldState second = form == Form::kIntersection ? clamped(use, complement(use, b)) : b;
+    r = clamped(use, complement(use, unite(use, first, second)));
+  }
+  return r;
+}
+
+FieldState soften(const FieldState& a, double range) {
+  // w and w' of the law of primitives, as functions of the field.
+  const double slope = (1 - blobtree::kR0) / range;
+  const double r = std::clamp(blobtree::kR0 + slope * a.field.v, 0.0, 1.0), v = 1 - r * r;
+  const bool is_inner = r > 0 && r < 1;
+  const double w1 = is_inner ? -6 * r * v * v * slope : 0;
+  const double w2 = is_inner ? -6 * v * (1 - 5 * r * r) * slope * slope : 0;
+  return {chain(a.field, v * v * v, w1), scaled(a.steering, chain(a.field, w1, w2))};
+}
+
+FieldState harden(const FieldState& a) {
+  return {Dual(0.5) - a.field, scaled(a.steering, -1)};
 }
 
 }  // namespace isofield::reference

@@ -27,10 +27,12 @@ Field evaluate(vec3 point, uint begin, uint count) {
   Field acc = zero_field();
   Field s0u = acc, s1u = acc, s2u = acc, s3u = acc, s4u = acc, s5u = acc, s6u = acc, s7u = acc, s8u = acc, s9u = acc,
         s10u = acc, s11u = acc, s12u = acc, s13u = acc, s14u = acc, s15u = acc;
+  Field first = acc, second = acc;  // of an operator with a mode
   uint len = TAPE_LENGTH > 0u ? TAPE_LENGTH : count;
   for (uint n = 0u; n < len; ++n) {
     uvec4 i = tape[begin + n];
-    uint operand = i.x & 0xffu, op = i.x >> 8u;
+    uint operand = i.x & 0xffu, op = has_modes() ? i.x >> 8u & 0xffu : i.x >> 8u;
+    uint mode = has_modes() ? i.x >> 16u : 0u;
     Field v = leaf_field(p, operand, i.y);
     if (STACK_DEPTH > 0u && is_operand(operand, OPERAND_POP)) {
       v = acc;
@@ -43,15 +45,63 @@ Field evaluate(vec3 point, uint begin, uint count) {
         FOR_EACH_REGISTER_UP;
         s0u = acc;
       }
-      if (is_operator(op, OPERATOR_SUM)) r = sum(acc, v);
-      if (is_operator(op, OPERATOR_MAX)) r = select_field(acc, v, v.f > acc.f);
-      if (is_operator(op, OPERATOR_MIN)) r = select_field(acc, v, v.f < acc.f);
-      if (is_operator(op, OPERATOR_SUBTRACT)) r = subtract(acc, v);
-      if (is_operator(op, OPERATOR_SUBTRACT_FROM)) r = subtract(v, acc);
-      if (is_operator(op, OPERATOR_RICCI)) r = ricci(acc, v, operations[i.z].xy);
-      if (is_operator(op, OPERATOR_GRADIENT)) r = blend_by_gradient(acc, v, operations[i.z], SMOOTH_SILHOUETTE);
+      // The operands in their order, and as the form of the operator wants them.
+      Field a = acc, b = v;
+      if (has_modes()) {
+        bool is_exchanged = (mode & MODE_EXCHANGED) != 0u;
+        a = select_field(acc, v, is_exchanged);
+        b = select_field(v, acc, is_exchanged);
+        first = a;
+        second = b;
+        a = select_field(a, complement(a, mode), (mode & 3u) != FORM_UNION);
+        b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
+      }
+      if (is_operator(op, OPERATOR_SUM)) r = sum(a, b);
+      if (is_operator(op, OPERATOR_MAX)) r = select_field(a, b, b.f > a.f);
+      if (is_operator(op, OPERATOR_MIN)) r = select_field(a, b, b.f < a.f);
+      if (is_operator(op, OPERATOR_SUBTRACT)) r = subtract(a, b);
+      if (is_operator(op, OPERATOR_SUBTRACT_FROM)) r = subtract(b, a);
+      if (is_operator(op, OPERATOR_RICCI)) r = ricci(a, b, operations[i.z].xy);
+      if (is_operator(op, OPERATOR_GRADIENT)) r = blend_by_gradient(a, b, operations[i.z], SMOOTH_SILHOUETTE);
       if (is_operator(op, OPERATOR_GRADIENT_TABLE)) {
-        r = blend_by_gradient(acc, v, operations[i.z], floatBitsToUint(operations[i.z].y));
+        r = blend_by_gradient(a, b, operations[i.z], silhouette_half(floatBitsToUint(operations[i.z].y), a.f, b.f));
+      }
+      if (is_operator(op, OPERATOR_CLEAN)) r = join_positive(a, b, clean_union(dual_of(a), dual_of(b)));
+      if (is_operator(op, OPERATOR_BARTHE)) {
+        vec4 o = operations[i.z];
+        r = join_positive(a, b, barthe_blend(dual_of(a), dual_of(b), o.x, o.y));
+      }
+      if (is_operator(op, OPERATOR_BERNHARDT)) {
+        vec4 o = operations[i.z];
+        r = join_positive(a, b, bernhardt_blend(dual_of(a), dual_of(b), o.x, o.y, o.z));
+      }
+      if (is_operator(op, OPERATOR_PASKO)) r = join_binary(a, b, pasko_blend(dual_of(a), dual_of(b), operations[i.z].xyz));
+      if (is_operator(op, OPERATOR_FUNCTIONAL)) {
+        r = join_binary(a, b, functional_blend(dual_of(a), dual_of(b), operations[i.z].xyz));
+      }
+      if (is_operator(op, OPERATOR_BT2)) r = blend_bt2(a, b, i.z);
+      if (has_modes()) r = formed(r, first, second, mode);
+      if (is_operator(op, OPERATOR_LINEAR)) r = linear(acc, operations[i.z].x, operations[i.z].y);
+      if (is_operator(op, OPERATOR_SOFTEN)) r = softened(acc, operations[i.z].x);
+      bool is_btk = is_operator(op, OPERATOR_BTK);
+      if (is_btk || is_operator(op, OPERATOR_SUPERELLIPTIC)) {
+        // The last operand is the accumulator, those before wait below it.
+        Field x[MAX_OPERANDS];
+        uint form = mode & 3u;
+        for (int k = MAX_OPERANDS - 1; k >= 0; --k) {
+          x[k] = zero_field();
+          if (uint(k) < ARITY && (i.y >> k & 1u) != 0u) {
+            bool is_turned = has_modes() && (form == FORM_INTERSECTION || (form == FORM_DIFFERENCE && k == 0u));
+            x[k] = select_field(acc, linear(acc, -1.0, 0.0), is_turned);
+            if ((i.y & ((1u << k) - 1u)) != 0u) {
+              acc = s0u;
+              FOR_EACH_REGISTER_DOWN;
+            }
+          }
+        }
+        if (is_btk) r = blend_btk(x, i.y, i.z);
+        else r = blend_superelliptic(x, i.y, i.z);
+        if (has_modes()) r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
       }
     }
     acc = r;

@@ -19,8 +19,23 @@ struct Distance {
 
 float safe_inverse(float x) { return x > 1e-18 ? 1.0 / x : 0.0; }
 
+// A signed primitive's field: the distance times minus the (negative) slope.
+Field signed_field(Distance s, float slope) {
+  Field a = zero_field();
+  a.f = -slope * s.d;
+  a.d = -slope * s.n;
+#ifdef WITH_GRADIENT
+  if (is_steered()) {
+    a.g = a.d;
+    a.j = -slope * s.h;
+  }
+#endif
+  return a;
+}
+
 // f = w(clamp(R0 + slope d, 0, 1)), w(r) = (1 - r^2)^3.
 Field soften(Distance s, float slope) {
+  if (has_signed_leaves() && slope < 0.0) return signed_field(s, slope);
   Field a = zero_field();
   float r = clamp(R0 + slope * s.d, 0.0, 1.0);
   float v = 1.0 - r * r;

@@ -12,9 +12,16 @@ layout(push_constant) uniform Constants {
   uvec4 cells;    // cells of the lattice along x, y, z
   uint first;     // of the bricks, or jobs, of this dispatch
   uint count;
-  float iso;
-  uint is_capped;  // 1: corners on the lattice's boundary count as outside
+  float iso;       // of a field that is greater inside: of a signed one, its negative's
+  uint flags;
 };
+
+// Corners on the lattice's boundary count as outside.
+bool is_capped() { return (flags & 1u) != 0u; }
+// 1, or -1 where the field is signed: what makes it greater inside.
+float inward() { return (flags & 2u) != 0u ? -1.0 : 1.0; }
+// What a corner on a capped boundary is taken to have.
+float cap_value() { return (flags & 2u) != 0u ? iso - origin.w : 0.0; }
 
 vec3 corner_position(uvec3 i) { return lattice_point(origin.xyz, vec3(origin.w), i); }
 

@@ -21,6 +21,29 @@ const uint OPERATOR_SUBTRACT_FROM = 5u;
 const uint OPERATOR_RICCI = 6u;
 const uint OPERATOR_GRADIENT = 7u;
 const uint OPERATOR_GRADIENT_TABLE = 8u;
+const uint OPERATOR_GRADIENT_VOLUME = 9u;
+const uint OPERATOR_CLEAN = 10u;
+const uint OPERATOR_BARTHE = 11u;
+const uint OPERATOR_BERNHARDT = 12u;
+const uint OPERATOR_PASKO = 13u;
+const uint OPERATOR_FUNCTIONAL = 14u;
+const uint OPERATOR_BT2 = 15u;
+const uint OPERATOR_SUPERELLIPTIC = 16u;
+const uint OPERATOR_BTK = 17u;
+const uint OPERATOR_LINEAR = 18u;
+const uint OPERATOR_SOFTEN = 19u;
+
+// Bits of the sets beside those of the opcodes.
+const uint SIGNED_LEAVES = 1u << 31u;  // OPERAND_SET
+const uint MODES = 1u << 31u;          // OPERATOR_SET
+const uint BY_ANGLE = 1u << 30u;       // OPERATOR_SET
+
+// Modes of an instruction: Mode::bits().
+const uint FORM_UNION = 0u;
+const uint FORM_INTERSECTION = 1u;
+const uint FORM_DIFFERENCE = 2u;
+const uint MODE_SIGNED = 4u;
+const uint MODE_EXCHANGED = 8u;
 
 // A kernel is specialised to the opcodes of the tapes it runs: on lavapipe every branch of a shader costs, taken or not,
 // and only code that is dead at pipeline creation costs nothing.
@@ -30,20 +53,28 @@ layout(constant_id = 2) const uint STACK_DEPTH = 16u;
 // Instructions of every tape, or 0 where they differ. A known length leaves no loop, and lavapipe reads what all
 // invocations share once, rather than once for each, outside of loops and branches alone.
 layout(constant_id = 3) const uint TAPE_LENGTH = 0u;
+// Most operands of an n-ary operator.
+layout(constant_id = 4) const uint ARITY = 16u;
 
 bool has_operand(uint operand) { return (OPERAND_SET >> operand & 1u) != 0u; }
 bool has_operator(uint op) { return (OPERATOR_SET >> op & 1u) != 0u; }
+bool has_modes() { return (OPERATOR_SET & MODES) != 0u; }
+bool has_signed_leaves() { return (OPERAND_SET & SIGNED_LEAVES) != 0u; }
 
 // Comparisons that the sets decide are dropped with their branches.
 bool is_operand(uint operand, uint candidate) {
-  return has_operand(candidate) && (OPERAND_SET == 1u << candidate || operand == candidate);
+  return has_operand(candidate) && ((OPERAND_SET & ~SIGNED_LEAVES) == 1u << candidate || operand == candidate);
 }
 // Of instructions after the first, which pushes.
 bool is_operator(uint op, uint candidate) {
   return has_operator(candidate) && (OPERATOR_SET == (1u << OPERATOR_PUSH | 1u << candidate) && STACK_DEPTH == 0u || op == candidate);
 }
 
-// Gradient blends steer by their operands' directions; a tape without them need not carry any.
-bool is_steered() { return has_operator(OPERATOR_GRADIENT) || has_operator(OPERATOR_GRADIENT_TABLE); }
+// Gradient blends, and ranges that follow an angle, steer by their operands' directions; a tape without them need not
+// carry any.
+bool is_steered() {
+  return has_operator(OPERATOR_GRADIENT) || has_operator(OPERATOR_GRADIENT_TABLE) ||
+         has_operator(OPERATOR_GRADIENT_VOLUME) || (OPERATOR_SET & BY_ANGLE) != 0u;
+}
 
 #endif

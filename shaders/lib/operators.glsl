@@ -2,7 +2,13 @@
 #ifndef OPERATORS_GLSL
 #define OPERATORS_GLSL
 
+#include "classic_blends.glsl"
 #include "gradient_blend.glsl"
+#include "ranged_blends.glsl"
+#include "signed_blends.glsl"
+
+// The falloff of primitives, leaves.glsl.
+const float R0_SIGNED = 0.45420201894740647;
 
 Field sum(Field a, Field b) {
   a.f += b.f;
@@ -34,6 +40,178 @@ void join_derivatives(inout Field r, Field a, Field b, float g1, float g2, vec3 
   r.j = g1 * a.j + g2 * b.j + outerProduct(a.d, g1_v) + outerProduct(b.d, g2_v);
 }
 #endif
+
+Dual dual_of(Field a) {
+#ifdef WITH_GRADIENT
+  return vec4(a.f, a.g);
+#else
+  return a.f;
+#endif
+}
+
+// An operator of two fields from its value and partials.
+Field join_binary(Field a, Field b, Binary o) {
+  Field r = zero_field();
+  float g1 = value_of(o.g1), g2 = value_of(o.g2);
+  r.f = value_of(o.g);
+  r.d = g1 * a.d + g2 * b.d;
+#ifdef WITH_GRADIENT
+  if (is_steered()) {
+    r.g = gradient_of(o.g);
+    join_derivatives(r, a, b, g1, g2, gradient_of(o.g1), gradient_of(o.g2));
+  }
+#endif
+  return r;
+}
+
+// A positive operator's: a field of 0 leaves the other untouched, to the bit.
+Field join_positive(Field a, Field b, Binary o) {
+  Field r = select_field(join_binary(a, b, o), a, b.f <= 0.0);
+  return select_field(r, b, a.f <= 0.0);
+}
+
+// factor f + offset.
+Field linear(Field a, float factor, float offset) {
+  a.f = factor * a.f + offset;
+  a.d *= factor;
+#ifdef WITH_GRADIENT
+  a.g *= factor;
+  a.j *= factor;
+#endif
+  return a;
+}
+
+// w(clamp(R0 + slope f, 0, 1)) of a signed field.
+Field softened(Field a, float slope) {
+  float r = clamp(R0_SIGNED + slope * a.f, 0.0, 1.0);
+  float v = 1.0 - r * r;
+  Field b = zero_field();
+  b.f = v * v * v;
+  float w1 = -6.0 * r * v * v * slope;
+  b.d = w1 * a.d;
+#ifdef WITH_GRADIENT
+  if (is_steered()) {
+    float w2 = r > 0.0 ? -6.0 * v * (1.0 - 5.0 * r * r) * slope * slope : 0.0;
+    b.g = w1 * a.g;
+    b.j = w1 * a.j + w2 * outerProduct(a.d, a.g);
+  }
+#endif
+  return b;
+}
+
+// What a form makes of its operands before the union of them, and of that after: modes of opcodes.glsl.
+Field complement(Field a, uint mode) { return linear(a, -1.0, (mode & MODE_SIGNED) != 0u ? 0.0 : 1.0); }
+
+Field formed(Field r, Field first, Field second, uint mode) {
+  uint form = mode & 3u;
+  bool is_signed = (mode & MODE_SIGNED) != 0u;
+  Field turned = complement(r, mode);
+  if (!is_signed) {
+    bool is_intersection = form == FORM_INTERSECTION;
+    // 0 is outside: of an intersection, and of what is left of 0. What is less 0 is clamped alone.
+    bool is_zero = turned.f <= 0.0 || first.f <= 0.0 || (is_intersection && second.f <= 0.0);
+    bool is_first = !is_intersection && second.f <= 0.0 && first.f < 1.0;
+    turned = select_field(turned, first, is_first);
+    turned = select_field(turned, zero_field(), is_zero);
+  }
+  return select_field(r, turned, form != FORM_UNION);
+}
+
+// The cosine of the angle between two fields' directions, 0 where one vanishes, and |first| / |second|.
+struct Angle {
+  Dual cosine, ratio;
+};
+Angle angle_between(Field a, Field b) {
+  float n1 = dot(a.d, a.d), n2 = dot(b.d, b.d);
+  bool is_null = min(n1, n2) <= 1e-24;
+#ifdef WITH_GRADIENT
+  Dual d12 = vec4(dot(a.d, b.d), b.d * a.j + a.d * b.j);
+  Dual d11 = vec4(is_null ? 1.0 : n1, 2.0 * (a.d * a.j)), d22 = vec4(is_null ? 1.0 : n2, 2.0 * (b.d * b.j));
+#else
+  Dual d12 = dot(a.d, b.d), d11 = is_null ? 1.0 : n1, d22 = is_null ? 1.0 : n2;
+#endif
+  Dual cosine = times(d12, reciprocal(times(square_root(d11), square_root(d22))));
+  Dual ratio = square_root(over(d11, d22));
+  // Rounding may pass 1, where the cosine has no gradient.
+  cosine = select_dual(cosine, dual(value_of(cosine) > 0.0 ? 1.0 : -1.0), abs(value_of(cosine)) >= 1.0);
+  bool is_extreme = value_of(ratio) < 1e-3 || value_of(ratio) > 1e3;
+  return Angle(select_dual(cosine, dual(0.0), is_null),
+               select_dual(ratio, dual(is_null ? 1.0 : clamp(value_of(ratio), 1e-3, 1e3)), is_null || is_extreme));
+}
+
+// Without an angle omega is negative.
+Field blend_bt2(Field a, Field b, uint record) {
+  vec4 head = operations[record], w1 = operations[record + 1u], w2 = operations[record + 2u];
+  Reach2 reach = Reach2(dual(head.x), dual(head.y), dual(w1.z), dual(w2.z));
+  vec2 inverse_weights = vec2(w1.x, w2.x);
+  if ((OPERATOR_SET & BY_ANGLE) != 0u && head.w >= 0.0) {
+    Angle angle = angle_between(a, b);
+    eliminate_bulge(reach, angle.cosine, angle.ratio, head.w);
+    // The conic narrows with the ranges.
+    Dual narrowed = times(reach.r1, reach.r2) * (head.z / (head.x * head.y));
+    return join_binary(a, b, bt2(dual_of(a), dual_of(b), reach, narrowed, vec2(0.0)));
+  }
+  return join_binary(a, b, bt2(dual_of(a), dual_of(b), reach, dual(head.z), inverse_weights));
+}
+
+// The joint result of an n-ary operator from its partials.
+Field join_operands(Field x[MAX_OPERANDS], Dual g, Dual partials[MAX_OPERANDS]) {
+  Field r = zero_field();
+  r.f = value_of(g);
+#ifdef WITH_GRADIENT
+  r.g = gradient_of(g);
+#endif
+  for (uint i = 0u; i < ARITY; ++i) {
+    float w = value_of(partials[i]);
+    r.d += w * x[i].d;
+#ifdef WITH_GRADIENT
+    if (is_steered()) r.j += w * x[i].j + outerProduct(x[i].d, gradient_of(partials[i]));
+#endif
+  }
+  return r;
+}
+
+// [H] eq. 5 of the operands in `mask`; those that are absent are zero fields.
+Field blend_btk(Field x[MAX_OPERANDS], uint mask, uint record) {
+  vec4 head = operations[record];
+  Term terms[MAX_OPERANDS];
+  for (uint i = 0u; i < ARITY; ++i) {
+    bool is_there = (mask >> i & 1u) != 0u;
+    vec4 t = operations[record + 1u + (is_there ? i : 0u)];
+    terms[i] = Term(dual_of(x[i]), dual(t.x), dual(is_there ? t.w : 0.0), t.z);
+  }
+  if ((OPERATOR_SET & BY_ANGLE) != 0u && head.y >= 0.0) {
+    Angle angle = angle_between(x[0], x[1]);
+    Reach2 reach = Reach2(terms[0].range, terms[1].range, reciprocal(terms[0].inverse_weight),
+                          reciprocal(terms[1].inverse_weight));
+    eliminate_bulge(reach, angle.cosine, angle.ratio, head.y);
+    terms[0] = Term(terms[0].x, reciprocal(reach.m1), reach.r1, terms[0].power);
+    terms[1] = Term(terms[1].x, reciprocal(reach.m2), reach.r2, terms[1].power);
+  }
+  Dual partials[MAX_OPERANDS];
+  Dual g = btk(terms, partials);
+  return join_operands(x, g, partials);
+}
+
+// [G] eq. 4.
+Field blend_superelliptic(Field x[MAX_OPERANDS], uint mask, uint record) {
+  vec4 head = operations[record];
+  bool by_angle = (OPERATOR_SET & BY_ANGLE) != 0u && head.y >= 0.0;
+  Dual cosine = dual(0.0);
+  if (by_angle) cosine = angle_between(x[0], x[1]).cosine;
+  Dual g = dual(1.0);
+  Dual partials[MAX_OPERANDS];
+  for (uint i = 0u; i < ARITY; ++i) {
+    bool is_there = (mask >> i & 1u) != 0u;
+    float range = operations[record + 1u + (is_there ? i : 0u)].w;
+    Dual r = dual(range);
+    if (by_angle) r = angular_range(range, cosine, head.y);
+    Bracket b = superelliptic_bracket(dual_of(x[i]), r, head.x);
+    g = g - select_dual(dual(0.0), b.value, is_there);
+    partials[i] = select_dual(dual(0.0), b.fall, is_there);
+  }
+  return join_operands(x, g, partials);
+}
 
 // (a^t + b^t)^(1/t), with the larger field taken out so that no power under- or overflows.
 Field ricci(Field a, Field b, vec2 exponent) {

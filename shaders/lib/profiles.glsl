@@ -10,6 +10,7 @@
 // Mirrors server/operators/profile_table.h.
 const int SILHOUETTE_CELLS = 256;
 const int OPENING_CELLS = 256;
+const int CURVE_CELLS = 1024;
 
 // Value, first and second derivative.
 vec3 profile(uint table, int cells, float per_unit, float x) {
@@ -42,6 +43,13 @@ vec3 silhouette_profile(uint table, float u) {
     q = profile(table, SILHOUETTE_CELLS, float(SILHOUETTE_CELLS), u);
   }
   return u > 0.0 ? q : vec3(1.0, 0.0, 0.0);
+}
+
+// The table of the half that the greater field says, of a silhouette as a scene's record names it: bit 30 marks one whose
+// halves differ.
+uint silhouette_half(uint silhouette, float f1, float f2) {
+  uint second = (silhouette >> 30u & 1u) != 0u && f1 < f2 ? uint(SILHOUETTE_CELLS) : 0u;
+  return (silhouette & 0x3fffffffu) + second;
 }
 
 // tan(theta) of an opening function at alpha within [0, pi].

@@ -1,6 +1,7 @@
 #include "support/tape_interpreter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <cstdlib>
 
@@ -8,32 +9,35 @@ namespace isofield::test_support {
 namespace {
 
 using blobtree::Instruction;
-using blobtree::NodeKind;
 using blobtree::Operand;
 using blobtree::Operator;
 using reference::FieldState;
 
-NodeKind kind_of(Operator op) {
-  switch (op) {
-    case Operator::kSum:
-      return NodeKind::kSum;
-    case Operator::kMax:
-      return NodeKind::kMax;
-    case Operator::kMin:
-      return NodeKind::kMin;
-    case Operator::kSubtract:
-    case Operator::kSubtractFrom:
-      return NodeKind::kDifference;
-    case Operator::kRicci:
-      return NodeKind::kRicci;
-    default:
-      return NodeKind::kGradient;
-  }
-}
-
 [[noreturn]] void die(const char* message) {
   std::fprintf(stderr, "%s\n", message);
   std::abort();
+}
+
+FieldState linear(const FieldState& a, double factor, double offset) {
+  using reference::Dual;
+  const Dual s(factor);
+  return {a.field * s + Dual(offset), {a.steering.x * s, a.steering.y * s, a.steering.z * s}};
+}
+
+// The operator of an instruction, of the operands that its mask leaves.
+operators::Operator operator_of(const Instruction& i, const blobtree::Operation& o) {
+  operators::Operator op;
+  if (i.op() == Operator::kSubtract || i.op() == Operator::kSubtractFrom) {
+    op.kind = operators::Kind::kDifference;
+    return op;
+  }
+  op = *o.what;
+  if (o.operands == 0) return op;
+  op.terms.clear();
+  for (std::uint32_t k = 0; k < o.operands; ++k) {
+    if (i.leaf >> k & 1) op.terms.push_back(o.what->term(k));
+  }
+  return op;
 }
 
 }  // namespace
@@ -41,7 +45,9 @@ NodeKind kind_of(Operator op) {
 FieldState TapeInterpreter::leaf(const Instruction& i, const blobtree::dvec3& p) const {
   if (!i.is_leaf()) return {};  // Operand::kZero
   const blobtree::Leaf& leaf = tape_.leaves.at(i.index);
-  return reference::evaluate_primitive({leaf.shape, leaf.size, leaf.range, leaf.to_local, leaf.anchor}, p);
+  const FieldState v =
+      reference::evaluate_primitive({leaf.shape, leaf.size, leaf.range, leaf.law, leaf.to_local, leaf.anchor}, p);
+  return leaf.law == operators::Law::kSigned ? linear(v, leaf.per_distance, 0) : v;
 }
 
 FieldState TapeInterpreter::evaluate(std::span<const Instruction> code, const blobtree::dvec3& p) {
@@ -56,6 +62,29 @@ FieldState TapeInterpreter::evaluate(std::span<const Instruction> code, const bl
       empty = false;
       continue;
     }
+    if (i.op() == Operator::kLinear) {
+      const auto [factor, offset] = tape_.linear(i);
+      acc = linear(acc, factor, offset);
+      continue;
+    }
+    const blobtree::Operation& o = tape_.operation(i);
+    if (i.op() == Operator::kSoften) {
+      acc = reference::soften(acc, o.range);
+      continue;
+    }
+    const operators::Operator op = operator_of(i, o);
+    const bool is_signed = operators::law_of(op.kind) == operators::Law::kSigned || i.mode().is_signed;
+    const reference::OperatorUse use{&op, is_signed ? operators::Law::kSigned : operators::Law::kPositive, o.length};
+    if (i.op() == Operator::kBtk || i.op() == Operator::kSuperelliptic) {
+      std::vector<FieldState> operands{acc};
+      while (operands.size() < static_cast<std::size_t>(std::popcount(i.leaf))) {
+        if (waiting_.empty()) die("a tape joins a value that is not there");
+        operands.insert(operands.begin(), waiting_.back());
+        waiting_.pop_back();
+      }
+      acc = combine(use, operands);
+      continue;
+    }
     // A popped value is the left operand: its code came first.
     FieldState right = acc;
     if (i.operand() == Operand::kPop) {
@@ -65,9 +94,8 @@ FieldState TapeInterpreter::evaluate(std::span<const Instruction> code, const bl
     } else {
       right = leaf(i, p);
     }
-    const blobtree::Operation& o = tape_.operations.at(i.operation);
-    const reference::OperatorUse use{kind_of(i.op()), o.exponent, &o.opening, &o.silhouette, o.length};
-    acc = i.op() == Operator::kSubtractFrom ? combine(use, right, acc) : combine(use, acc, right);
+    const bool is_exchanged = i.op() == Operator::kSubtractFrom || i.mode().is_exchanged;
+    acc = is_exchanged ? combine(use, {right, acc}) : combine(use, {acc, right});
   }
   if (!waiting_.empty()) die("a tape leaves values waiting");
   return acc;

@@ -50,17 +50,17 @@ void check_scene(std::uint64_t seed, const Scene& scene, Totals& totals) {
   for (int n = 0; n < 12; ++n) {
     const Box box = random_box(random);
     std::vector<Instruction> pruned;
-    const Interval range = pruner.prune(tape.code, 0, tape.code.size(), box, pruned);
+    const auto [range, is_zero] = pruner.prune(tape.code, 0, tape.code.size(), box, pruned);
     const dvec3 quarter = (box.max - box.min) * 0.25;
     const Box inner{box.min + quarter, box.max - quarter};
     std::vector<Instruction> arena = pruned;
-    const Interval inner_range = pruner.prune(arena, 0, pruned.size(), inner, arena);
+    const Interval inner_range = pruner.prune(arena, 0, pruned.size(), inner, arena).range;
     const std::vector<Instruction> twice(arena.begin() + static_cast<std::ptrdiff_t>(pruned.size()), arena.end());
     ++totals.boxes;
     totals.whole += tape.code.size();
     totals.pruned += pruned.size();
     totals.empty += pruned.empty() ? 1 : 0;
-    EXPECT_EQ(pruned.empty(), range.hi <= 0);
+    EXPECT_EQ(pruned.empty(), is_zero);
     for (int i = 0; i < 12; ++i) {
       const bool deep = i % 3 == 0;
       const dvec3 p = random_point_in(random, deep ? inner : box);

@@ -1,0 +1,75 @@
+// Reads numbers of a message with their limits, and words refusals: path.field = value: expected what.
+#pragma once
+
+#include <absl/status/status.h>
+#include <absl/strings/str_cat.h>
+#include <absl/strings/string_view.h>
+#include <google/protobuf/repeated_field.h>
+
+#include <string>
+
+#include "blobtree/scene.h"
+
+namespace isofield::blobtree {
+
+// Keeps the first refusal.
+class FieldReader {
+ public:
+  using Numbers = google::protobuf::RepeatedField<double>;
+
+  // `path` names what is read in errors, and outlives the reader.
+  explicit FieldReader(const std::string& path) : path_(path) {}
+
+  absl::Status status() const { return status_; }
+
+  void refuse(absl::string_view field, absl::string_view value, absl::string_view expected) {
+    if (!status_.ok()) return;
+    status_ = absl::InvalidArgumentError(absl::StrCat(path_, ".", field, " = ", value, ": expected ", expected));
+  }
+
+  double number(absl::string_view field, double value, double least, double most, absl::string_view expected) {
+    if (!(value >= least && value <= most)) refuse(field, absl::StrCat(value), expected);
+    return value;
+  }
+  double positive(absl::string_view field, double value) {
+    return number(field, value, kMinLength, kMaxCoordinate,
+                  absl::StrCat("a length > 0, within [", kMinLength, ", ", kMaxCoordinate, "]"));
+  }
+  double coordinate(absl::string_view field, double value) {
+    return number(field, value, -kMaxCoordinate, kMaxCoordinate,
+                  absl::StrCat("a finite number of magnitude at most ", kMaxCoordinate));
+  }
+  dvec3 point(absl::string_view field, const Numbers& numbers, const dvec3& otherwise = {}) {
+    return has_size(field, numbers, 3, true) ? stated_point(field, numbers) : otherwise;
+  }
+  // A point without a default.
+  dvec3 stated_point(absl::string_view field, const Numbers& numbers) {
+    if (!has_size(field, numbers, 3, false)) return {};
+    return {coordinate(absl::StrCat(field, ".x"), numbers[0]), coordinate(absl::StrCat(field, ".y"), numbers[1]),
+            coordinate(absl::StrCat(field, ".z"), numbers[2])};
+  }
+  // A direction of any length but 0.
+  dvec3 direction(absl::string_view field, const Numbers& numbers, const dvec3& otherwise) {
+    const dvec3 v = point(field, numbers, otherwise);
+    if (!(length(v) > 0)) refuse(field, "(0, 0, 0)", "a direction of a length that is not 0");
+    return v;
+  }
+  dvec3 lengths(absl::string_view field, const Numbers& numbers) {
+    if (!has_size(field, numbers, 3, false)) return {1, 1, 1};
+    return {positive(absl::StrCat(field, ".x"), numbers[0]), positive(absl::StrCat(field, ".y"), numbers[1]),
+            positive(absl::StrCat(field, ".z"), numbers[2])};
+  }
+  // False when the default is meant, or the count is refused.
+  bool has_size(absl::string_view field, const Numbers& numbers, int size, bool may_be_empty) {
+    if (numbers.empty() && may_be_empty) return false;
+    if (numbers.size() == size) return true;
+    refuse(field, absl::StrCat("[", numbers.size(), " numbers]"), absl::StrCat(size, " numbers"));
+    return false;
+  }
+
+ private:
+  const std::string& path_;
+  absl::Status status_;
+};
+
+}  // namespace isofield::blobtree

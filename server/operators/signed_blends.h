@@ -1,0 +1,47 @@
+// The operators of `signed` fields (negative inside) in [G] section 2: eqs. 4 to 6 and 8.
+#pragma once
+
+#include "operators/binary.h"
+#include "operators/sampled_curve.h"
+
+namespace isofield::operators {
+
+// [G] eq. 5: the R-function union (eq. 8) with a0 / (1 + (x1/a1)^2 + (x2/a2)^2) added. Where both fields are 0 the
+// union has no gradient; 1, 1 is returned.
+template <class T>
+Binary<T> pasko_blend(const T& x1, const T& x2, double a0, double a1, double a2) {
+  using std::sqrt;
+  const T r = sqrt(x1 * x1 + x2 * x2);
+  const T inverse = value_of(r) > 0 ? T(1.0) / r : T(0.0);
+  const T w = T(1.0) / (T(1.0) + x1 * x1 * T(1 / (a1 * a1)) + x2 * x2 * T(1 / (a2 * a2)));
+  const T fall = w * w * T(2 * a0);
+  return {x1 + x2 - r + w * T(a0), T(1.0) - x1 * inverse - fall * x1 * T(1 / (a1 * a1)),
+          T(1.0) - x2 * inverse - fall * x2 * T(1 / (a2 * a2))};
+}
+
+// One operand's part of the super-elliptic blend, [G] eq. 4: [1 - x/r]_+^t, with minus its derivative.
+template <class T>
+struct Bracket {
+  T value, fall;
+};
+template <class T>
+Bracket<T> superelliptic_bracket(const T& x, const T& range, double t) {
+  using std::pow;
+  const T u = T(1.0) - x / range;
+  if (value_of(u) <= 0) return {T(0.0), T(0.0)};
+  return {pow(u, t), pow(u, t - 1) * T(t) / range};
+}
+
+// A function with this value and slope at x.
+inline double chain(double, double value, double) {
+  return value;
+}
+
+// [G] eq. 6: x2 - H(x1).
+template <class T>
+Binary<T> functional_blend(const T& x1, const T& x2, const SampledCurve& profile) {
+  const Curve h = profile.at(value_of(x1));
+  return {x2 - chain(x1, h.v, h.d1), T(0.0) - chain(x1, h.d1, h.d2), T(1.0)};
+}
+
+}  // namespace isofield::operators

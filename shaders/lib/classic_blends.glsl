@@ -1,0 +1,78 @@
+// The operators of positive fields that [G] compares itself with. Mirrors server/operators/classic_blends.h by name.
+#ifndef CLASSIC_BLENDS_GLSL
+#define CLASSIC_BLENDS_GLSL
+
+#include "dual.glsl"
+
+// Written with the slope of k, which a Newton step multiplies.
+struct Centre {
+  Dual k, k_c;
+};
+Centre clean_union_centre(Dual c) {
+  Dual k = square_root(0.5 * c);
+  bool is_low = value_of(c) <= 0.5;
+  return Centre(select_dual(k, 2.0 * times(c, c), is_low),
+                select_dual(0.25 * reciprocal(select_dual(k, dual(1.0), value_of(k) <= 0.0)), 4.0 * c, is_low));
+}
+
+// [G] eqs. 9 and 10. Newton's method from the maximum, where the slope is between 1 and 2; on the arcs beside the sharp
+// edge it needs up to six steps.
+Binary clean_union(Dual f1, Dual f2) {
+  bool swap = value_of(f1) < value_of(f2);
+  Dual hi = select_dual(f1, f2, swap), lo = select_dual(f2, f1, swap);
+  Binary max_only = Binary(hi, dual(1.0), dual(0.0));
+  bool is_max = value_of(lo) <= value_of(clean_union_centre(hi).k) || value_of(lo) <= 0.0;
+  float c = value_of(hi);
+  // Below the edge the arc ends where the centre meets the lesser field; beyond, the equation has a false root.
+  float limit = value_of(lo) < 0.5 ? sqrt(0.5 * max(value_of(lo), 0.0)) : 2.0 * value_of(lo) * value_of(lo);
+  for (int step = 0; step < 7; ++step) {
+    Centre at = clean_union_centre(dual(c));
+    float k = value_of(at.k);
+    float a = max(value_of(hi) - k, 1e-30), b = max(value_of(lo) - k, 0.0);
+    float m = sqrt(a * a + b * b);
+    float slope = 1.0 - value_of(at.k_c) * (1.0 - (a + b) / m);
+    c = clamp(c - (c - k - m) / slope, value_of(hi), max(limit, value_of(hi)));
+  }
+  // A step in duals gives the root its derivatives.
+  Dual root = dual(c);
+  Dual slope = dual(1.0);
+  for (int pass = 0; pass < 2; ++pass) {
+    Centre at = clean_union_centre(root);
+    Dual a = hi - at.k, b = lo - at.k;
+    Dual m = square_root(times(a, a) + times(b, b));
+    m = select_dual(m, dual(1.0), value_of(m) <= 1e-20);
+    slope = dual(1.0) - times(at.k_c, dual(1.0) - over(a + b, m));
+    if (pass == 0) root = root - (root - at.k - m) * (1.0 / value_of(slope));
+  }
+  Dual k = clean_union_centre(root).k;
+  Dual denominator = times(root - k, slope);
+  bool is_edge = abs(value_of(denominator)) <= 1e-20;
+  Dual inverse = reciprocal(select_dual(denominator, dual(1.0), is_edge));
+  Binary r = Binary(root, times(hi - k, inverse), times(lo - k, inverse));
+  r = select_binary(r, max_only, is_max || is_edge);
+  return select_binary(r, exchanged(r), swap);
+}
+
+// [G] eqs. 12 and 13; t = tan(theta).
+Binary barthe_blend(Dual f1, Dual f2, float t1, float t2) {
+  float s1 = (1.0 - t1) * (1.0 - t1), s2 = (1.0 - t2) * (1.0 - t2);
+  float a = t2 * t2 * s1 + t1 * t1 * s2 - s1 * s2;
+  Dual b = t2 * s1 * f1 + t1 * s2 * f2;
+  Dual d = s1 * times(f1, f1) + s2 * times(f2, f2);
+  Dual divisor = b + square_root(times(b, b) - a * d);
+  Dual c = over(d, select_dual(divisor, dual(1.0), value_of(divisor) <= 1e-20));
+  Dual x = s1 * (f1 - t2 * c), y = s2 * (f2 - t1 * c);
+  Dual slope = t2 * x + t1 * y + s1 * s2 * c;
+  Dual inverse = reciprocal(select_dual(slope, dual(1.0), value_of(slope) <= 1e-20));
+  Binary r = Binary(c, times(x, inverse), times(y, inverse));
+  r = select_binary(r, Binary(f2, dual(0.0), dual(1.0)), value_of(f1) <= t2 * value_of(f2));
+  return select_binary(r, Binary(f1, dual(1.0), dual(0.0)), value_of(f2) <= t1 * value_of(f1));
+}
+
+Binary bernhardt_blend(Dual f1, Dual f2, float t1, float t2, float weight) {
+  Binary u = clean_union(f1, f2), b = barthe_blend(f1, f2, t1, t2);
+  float v = 1.0 - weight;
+  return Binary(v * u.g + weight * b.g, v * u.g1 + weight * b.g1, v * u.g2 + weight * b.g2);
+}
+
+#endif
