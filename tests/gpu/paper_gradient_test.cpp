@@ -5,15 +5,14 @@
 //   device gradient      against central differences of the device's value.
 //
 // Points without a derivative, or too close to one for what is compared, are left out by these rules, and counted:
-//   crease     moving by 2e-6 changes the reference's gradient by more than 0.05 %: float32 coordinates cannot tell the
-//              side. (Beside folds these are the seams between the cap and the side of a segment: its gradient bends
-//              there, so the opening angle has a kink and the blend's gradient a jump.)
-//   unsettled  for differences of the reference: those with steps h and h / 3 differ by more than 0.01 %.
-//   stencil    for differences of the device: the same differences in double are off by more than 0.05 degrees, so that
-//              a crease or a tight bend lies within the stencil.
-#include <gtest/gtest.h>
-
+//   crease     moving by 2e-6 turns the reference's gradient by more than 0.03 degrees: float32 coordinates cannot tell
+//              the side. (Beside folds these are the seams between the cap and the side of a segment: its gradient
+//              bends there, so the opening angle has a kink and the blend's gradient a jump.)
+//   unsettled  for differences of the reference: those with steps of 1e-4 and a third of it differ by 0.01 degrees.
+//   stencil    for differences of the device: the same differences in double are off by 0.05 degrees, so that a crease
+//              or a tight bend lies within the stencil.
 #include <absl/strings/str_join.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -93,31 +92,35 @@ Comparison compare(const v1::Scene& message, double cell, std::size_t most_point
   for (std::size_t i = 0; i < points.size(); ++i) {
     const dvec3& p = points[i];
     const reference::Sample s = exact.evaluate(p);
-    const double slope = length(s.gradient);
-    const bool crease = test_support::gradient_variation(exact, p, 2e-6) > 5e-4 * slope;
+    const bool crease = test_support::direction_variation(exact, p, 2e-6) > 0.03 * kDegree;
     if (crease) {
       ++all.device_to_reference.left_out;
     } else {
       all.device_to_reference.add(device[i].gradient, s.gradient);
     }
 
-    std::array<double, 3> fine{}, exact_stencil{}, device_stencil{};
-    bool settled = true;
+    const auto differences = [&](double h) {
+      std::array<double, 3> d{};
+      for (int a = 0; a < 3; ++a) {
+        d[a] = test_support::slope([&](double x) { return exact.value(p + axis(a) * x); }, 0, h);
+      }
+      return dvec3{d[0], d[1], d[2]};
+    };
+    // Slow, and a matter of the reference alone: at some of the points.
+    if (i % 3 == 0) {
+      const dvec3 coarse = differences(1e-4), fine = differences(1e-4 / 3);
+      if (degrees_between(coarse, fine) > 0.01) {
+        ++all.reference_to_differences.left_out;
+      } else {
+        all.reference_to_differences.add(s.gradient, fine);
+      }
+    }
+    std::array<double, 3> device_stencil{};
     for (int a = 0; a < 3; ++a) {
-      const auto along = [&](double x) { return exact.value(p + axis(a) * x); };
-      const auto d = test_support::settled_slope(along, 0, 1e-4, 1e-4);
-      settled = settled && d;
-      fine[a] = d.value_or(0);
-      exact_stencil[a] = test_support::slope(along, 0, kStep);
       const double* v = &stencil_values[12 * i + 4 * a];
       device_stencil[a] = (8 * (v[2] - v[1]) - (v[3] - v[0])) / (12 * kStep);
     }
-    if (settled) {
-      all.reference_to_differences.add(s.gradient, {fine[0], fine[1], fine[2]});
-    } else {
-      ++all.reference_to_differences.left_out;
-    }
-    if (crease || degrees_between({exact_stencil[0], exact_stencil[1], exact_stencil[2]}, s.gradient) > 0.05) {
+    if (crease || degrees_between(differences(kStep), s.gradient) > 0.05) {
       ++all.device_to_differences.left_out;
     } else {
       all.device_to_differences.add(device[i].gradient, {device_stencil[0], device_stencil[1], device_stencil[2]});
@@ -127,14 +130,14 @@ Comparison compare(const v1::Scene& message, double cell, std::size_t most_point
 }
 
 // `share` of the points must be within `degrees`.
-void expect_within(Comparison c, const std::string& name, double share, double degrees) {
-  const std::tuple<const char*, Angles*, double> pairs[] = {
-      {"device to reference", &c.device_to_reference, 0.02},
-      {"reference to its differences", &c.reference_to_differences, 0.04},
-      {"device to its differences", &c.device_to_differences, 0.2}};
-  for (const auto& [pair, angles, most_left_out] : pairs) {
+void expect_within(Comparison c, const std::string& name, double share, double degrees, double most_left_out) {
+  const std::pair<const char*, Angles*> pairs[] = {{"device to reference", &c.device_to_reference},
+                                                   {"reference to its differences", &c.reference_to_differences},
+                                                   {"device to its differences", &c.device_to_differences}};
+  for (const auto& [pair, angles] : pairs) {
     const std::string what = name + ", " + pair;
-    test_support::figure(what + " at " + std::to_string(100 * share).substr(0, 4) + " %", angles->quantile(share), "deg");
+    test_support::figure(what + " at " + std::to_string(100 * share).substr(0, 4) + " %", angles->quantile(share),
+                         "deg");
     test_support::figure(what + " largest", angles->largest(), "deg");
     test_support::figure(what + " points left out", 100 * angles->left_out_share(), "%");
     EXPECT_LE(angles->quantile(share), degrees) << what;
@@ -142,9 +145,8 @@ void expect_within(Comparison c, const std::string& name, double share, double d
   }
 }
 
-std::string two_cylinders(const dvec3& a, const dvec3& b) {
-  return soft_segment("first", a.x == 0 ? dvec3{0, 0, 0} : dvec3{-2, 0, 0}, {2, 0, 0}, 1) + "," +
-         soft_segment("second", {b.x * -a.y, b.y * -a.y, b.z * -a.y}, b, 1);
+std::string cylinders(const dvec3& a1, const dvec3& b1, const dvec3& a2, const dvec3& b2) {
+  return soft_segment("first", a1, b1, 1) + "," + soft_segment("second", a2, b2, 1);
 }
 
 struct Blend {
@@ -154,41 +156,50 @@ struct Blend {
 };
 
 TEST(PaperGradient, IsTheDerivativeOfTheFieldForOneBlend) {
-  // a: (whether the first cylinder goes through, whether the second one does).
-  const std::string t_joint = two_cylinders({1, 0, 0}, {0, 0, 2});
-  const std::string cross_of_two = two_cylinders({1, 1, 0}, {0, 0, 2});
-  const std::string joint = two_cylinders({0, 0, 0}, dvec3{std::cos(30 * kDegree), 0, std::sin(30 * kDegree)} * 2.0);
+  const std::string t_joint = cylinders({-2, 0, 0}, {2, 0, 0}, {0, 0, 0}, {0, 0, 2});
+  const std::string cross_of_two = cylinders({-2, 0, 0}, {2, 0, 0}, {0, 0, -2}, {0, 0, 2});
+  const std::string joint =
+      cylinders({0, 0, 0}, {2, 0, 0}, {0, 0, 0}, dvec3{std::cos(30 * kDegree), 0, std::sin(30 * kDegree)} * 2.0);
   const std::string ball =
       soft_segment("first", {-2, 0, 0}, {2, 0, 0}, 1) + "," + soft_sphere("second", {0.1, 0, 0.6}, 1.3);
-  const Blend blends[] = {{"T", t_joint, Join::kCamel},          {"T", t_joint, Join::kOrganic},
-                          {"T", t_joint, Join::kContact},        {"cross", cross_of_two, Join::kCamel},
-                          {"cross", cross_of_two, Join::kContact}, {"30 degree joint", joint, Join::kCamel},
-                          {"30 degree joint", joint, Join::kOrganic}, {"30 degree joint", joint, Join::kContact},
-                          {"sphere on cylinder", ball, Join::kCamel}, {"sphere on cylinder", ball, Join::kOrganic}};
+  const Blend blends[] = {{"T", t_joint, Join::kCamel},
+                          {"T", t_joint, Join::kOrganic},
+                          {"T", t_joint, Join::kContact},
+                          {"cross", cross_of_two, Join::kCamel},
+                          {"cross", cross_of_two, Join::kContact},
+                          {"30 degree joint", joint, Join::kCamel},
+                          {"30 degree joint", joint, Join::kOrganic},
+                          {"30 degree joint", joint, Join::kContact},
+                          {"sphere on cylinder", ball, Join::kCamel},
+                          {"sphere on cylinder", ball, Join::kOrganic}};
   for (const Blend& b : blends) {
     const std::string name = std::string(b.name) + " " + text(b.join);
     expect_within(compare(test_support::scene_of_nodes("[" + b.operands + "," +
                                                        test_support::join_node(b.join, {"first", "second"}) + "]"),
                           0.07, 2000),
-                  name, 0.999, 0.5);
+                  name, 0.999, 0.5,
+                  // Both cylinders end in the same cap: f1 = f2 = 0.5 all over it, where camel is a clean union, whose
+                  // slope jumps at the surface. The gradient's direction does not.
+                  b.operands == joint && b.join == Join::kCamel ? 0.12 : 0.04);
   }
 }
 
 TEST(PaperGradient, IsTheDerivativeOfTheFieldForFourNestedBlends) {
   for (const Join join : {Join::kCamel, Join::kOrganic, Join::kContact}) {
     // A body with four limbs, each blended with all before.
-    const std::string nodes = absl::StrJoin(
-        std::vector<std::string>{
-            soft_segment("body", {-1, 0, 0}, {1, 0, 0}, 1.2), soft_segment("limb1", {0.9, 0, 0}, {1.8, 1.2, 0.3}, 0.8),
-            soft_segment("limb2", {0.8, 0.1, 0}, {1.6, -1.3, 0.2}, 0.8),
-            soft_segment("limb3", {-0.9, 0, 0}, {-1.5, 0.9, -1}, 0.8),
-            soft_segment("limb4", {0.2, 0, 0}, {0.9, 0.5, 1.4}, 0.8), test_support::join_node(join, {"body", "limb1"}, "one"),
-            test_support::join_node(join, {"one", "limb2"}, "two"),
-            test_support::join_node(join, {"two", "limb3"}, "three"),
-            test_support::join_node(join, {"three", "limb4"}, "four")},
-        ",");
+    const std::string nodes =
+        absl::StrJoin(std::vector<std::string>{soft_segment("body", {-1, 0, 0}, {1, 0, 0}, 1.2),
+                                               soft_segment("limb1", {0.9, 0, 0}, {1.8, 1.2, 0.3}, 0.8),
+                                               soft_segment("limb2", {0.8, 0.1, 0}, {1.6, -1.3, 0.2}, 0.8),
+                                               soft_segment("limb3", {-0.9, 0, 0}, {-1.5, 0.9, -1}, 0.8),
+                                               soft_segment("limb4", {0.2, 0, 0}, {0.9, 0.5, 1.4}, 0.8),
+                                               test_support::join_node(join, {"body", "limb1"}, "one"),
+                                               test_support::join_node(join, {"one", "limb2"}, "two"),
+                                               test_support::join_node(join, {"two", "limb3"}, "three"),
+                                               test_support::join_node(join, {"three", "limb4"}, "four")},
+                      ",");
     expect_within(compare(test_support::scene_of_nodes("[" + nodes + "]"), 0.07, 2000),
-                  std::string("four nested ") + text(join), 0.99, 2);
+                  std::string("four nested ") + text(join), 0.99, 2, 0.04);
   }
 }
 

@@ -28,9 +28,8 @@ std::string soft_sphere(const std::string& name, const dvec3& centre, double R) 
 }
 
 std::string soft_segment(const std::string& name, const dvec3& a, const dvec3& b, double R) {
-  return absl::StrFormat(
-      R"({"name": "%s", "segment": {"a": %s, "b": %s, "radius_a": %.17g, "radius_b": %.17g, %s}})", name, list(a),
-      list(b), kSoftRadius * R, kSoftRadius * R, range(R));
+  return absl::StrFormat(R"({"name": "%s", "segment": {"a": %s, "b": %s, "radius_a": %.17g, "radius_b": %.17g, %s}})",
+                         name, list(a), list(b), kSoftRadius * R, kSoftRadius * R, range(R));
 }
 
 std::string soft_torus(const std::string& name, double major_radius, double R) {
@@ -55,10 +54,11 @@ const char* text(Join join) {
 }
 
 std::string join_node(Join join, const std::vector<std::string>& children, const std::string& name) {
-  const std::string names = absl::StrCat(
-      "\"children\": [",
-      absl::StrJoin(children, ", ", [](std::string* out, const std::string& c) { absl::StrAppend(out, "\"", c, "\""); }),
-      "]");
+  const std::string names =
+      absl::StrCat("\"children\": [",
+                   absl::StrJoin(children, ", ",
+                                 [](std::string* out, const std::string& c) { absl::StrAppend(out, "\"", c, "\""); }),
+                   "]");
   const std::string head = name.empty() ? "{" : absl::StrCat("{\"name\": \"", name, "\", ");
   switch (join) {
     case Join::kSum:

@@ -1,5 +1,5 @@
-// Scenes in the terms of [G]: raw soft objects w(distance / R) with the field w(r) = (1 - r^2)^3, and the operators that
-// the paper's claims are about.
+// Scenes in the terms of [G]: raw soft objects w(distance / R) with the field w(r) = (1 - r^2)^3, and the operators
+// that the paper's claims are about.
 #pragma once
 
 #include <functional>
@@ -27,7 +27,8 @@ const char* text(Join join);
 // A node that joins `children`.
 std::string join_node(Join join, const std::vector<std::string>& children, const std::string& name = "");
 
-// Where a ray from within leaves {f > iso}: its first crossing, sought in `steps` steps up to `reach`, to the last bits.
+// Where a ray from within leaves {f > iso}: its first crossing, sought in `steps` steps up to `reach`, to the last
+// bits.
 using Field = std::function<double(const blobtree::dvec3&)>;
 std::optional<double> exit_distance(const Field& f, const blobtree::dvec3& origin, const blobtree::dvec3& direction,
                                     double reach, int steps = 400, double iso = 0.5);
