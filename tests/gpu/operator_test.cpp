@@ -5,11 +5,13 @@
 #include <cmath>
 #include <iostream>
 
+#include "blobtree/parameter_layout.h"
 #include "engine/session.h"
 #include "gpu/gpu_environment.h"
 #include "operators/gradient_blend.h"
 #include "operators/profile_table.h"
 #include "support/random_scene.h"
+#include "support/scene_text.h"
 #include "support/shared_files.h"
 
 namespace isofield::gpu_test {
@@ -90,6 +92,43 @@ TEST(OperatorOnDevice, ReproducesGoldenOpenings) {
     }
     std::cout << file << ": max error " << worst << "\n";
     EXPECT_LE(worst, 1e-6) << file;
+  }
+}
+
+// What [G]'s 3-D texture took megabytes for.
+TEST(OperatorOnDevice, ABlendTakesFourKilobytesOfTables) {
+  using Kind = Silhouette::Kind;
+  for (const auto& [silhouette, bytes] :
+       {std::pair{Silhouette{}, 4096u}, std::pair{Silhouette{Kind::kBulge, 0.8}, 8192u}}) {
+    const std::string kind = silhouette.kind == Kind::kBulge ? R"({"kind": "BULGE", "k": 0.8})" : "{}";
+    const blobtree::ParameterBuffers parameters =
+        blobtree::lay_out(test_support::compile_or_die(test_support::read_or_die(test_support::scene_of_nodes(
+            R"([{"name": "a", "sphere": {"radius": 0.5, "range": 0.5}},
+                {"name": "b", "sphere": {"center": [1, 0, 0], "radius": 0.5, "range": 0.5}},
+                {"gradient": {"children": ["a", "b"], "silhouette": )" +
+            kind + "}}]"))));
+    const std::size_t tables = parameters.tables.size() * sizeof(parameters.tables[0]);
+    std::cout << "tables of one blend: " << tables << " bytes\n";
+    EXPECT_LE(tables, bytes);
+  }
+}
+
+TEST(OperatorOnDevice, AgreesWithExactArithmeticAtTheEndsOfItsDomain) {
+  const float fields[] = {0, 1e-30f, 1e-6f, 0.25f, 0.5f, 0.50000006f, 1, 2, 1000};
+  std::vector<Float4> arguments;
+  for (const float f1 : fields) {
+    for (const float f2 : fields) {
+      for (const float t : {0.0f, 1.0f}) arguments.push_back({f1, f2, t});
+    }
+  }
+  for (const Silhouette& silhouette : {Silhouette{}, Silhouette{Silhouette::Kind::kBulge, 0.8}}) {
+    const std::vector<Float4> results = probe_blend(arguments, silhouette);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const Float4& a = arguments[i];
+      const operators::Blend exact = operators::gradient_blend(a[0], a[1], std::atan(double{a[2]}), silhouette);
+      for (const float r : results[i]) EXPECT_TRUE(std::isfinite(r)) << a[0] << " " << a[1] << " " << a[2];
+      EXPECT_NEAR(results[i][0], exact.g, 2e-5 * std::max(1.0, exact.g)) << a[0] << " " << a[1] << " " << a[2];
+    }
   }
 }
 

@@ -11,4 +11,8 @@ namespace isofield::test_support {
 // error of that size in the coordinates. An evaluation whose coordinates are off by up to `offset` can't do better.
 double gradient_variation(const reference::Evaluator& evaluator, const blobtree::dvec3& p, double offset);
 
+// The same of its direction: the largest angle, in radians. Where operands are equal over an area, the slope of a blend
+// may jump and its direction not.
+double direction_variation(const reference::Evaluator& evaluator, const blobtree::dvec3& p, double offset);
+
 }  // namespace isofield::test_support
