@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "blobtree/scene.h"
+#include "operators/ranged_blends.h"
 
 namespace isofield::blobtree {
 namespace {
@@ -34,6 +35,12 @@ void join_positive(Box& box, const operators::Operator& op, std::size_t operand,
   }
 }
 
+// Weights that follow the gradients grow to so many times the other.
+double most_weight(const operators::Operator& op, std::size_t operand) {
+  const double own = op.term(operand).weight;
+  return op.by_angle ? std::max(own, op.term(1 - operand).weight * operators::kMostRatio) : own;
+}
+
 // Of a union of signed fields: the operand below which the result may reach r, as bounds of the operand's own.
 Bounds reached(const operators::Operator& op, std::size_t operand, const Bounds& b) {
   switch (op.kind) {
@@ -53,8 +60,8 @@ Bounds reached(const operators::Operator& op, std::size_t operand, const Bounds&
     case Kind::kBt2:
     case Kind::kBtk: {
       const operators::Term& t = op.term(operand);
-      if (op.by_angle) return {b.within(t.range * (2 + op.omega)), 0, 1e-300};  // weights follow the gradients
-      return {b.within(t.range), b.growth * t.weight, (b.limit - t.range) / t.weight};
+      const double reach = t.range * (op.by_angle ? 2 + op.omega : 1), weight = most_weight(op, operand);
+      return {b.within(reach), b.growth * weight, (b.limit - reach) / weight};
     }
     default:
       return b;
@@ -72,8 +79,7 @@ Bounds kept(const operators::Operator& op, std::size_t operand, const Bounds& b)
     }
     case Kind::kBt2:
     case Kind::kBtk: {
-      if (op.by_angle) return {b.box, 0, 1e-300};
-      const double weight = op.term(operand).weight;
+      const double weight = most_weight(op, operand);
       return {b.box, b.growth * weight, b.limit / weight};
     }
     default:

@@ -28,10 +28,12 @@ double most_reach(const Operation& o) {
   return o.what->by_angle ? 2 + o.what->omega : 1;
 }
 
-// Weights that follow the gradients only grow, so that fields only shrink towards 0.
+// Weights that follow the gradients only grow, to so many times the other, so that fields only shrink towards 0.
 Interval with_grown_weights(const Operation& o, const Interval& i) {
   if (!o.what->by_angle) return i;
-  return {std::min(i.lo, 0.0), std::max(i.hi, 0.0)};
+  const auto [least, most] = std::minmax(o.what->term(0).weight, o.what->term(1).weight);
+  const double shrunk = least / (most * operators::kMostRatio);
+  return {i.lo > 0 ? i.lo * shrunk : i.lo, i.hi < 0 ? i.hi * shrunk : i.hi};
 }
 
 Interval pasko(const operators::Operator& op, const Interval& a, const Interval& b) {

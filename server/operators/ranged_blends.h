@@ -26,8 +26,9 @@ Binary<T> bt2(const T& x1, const T& x2, const Reach<T>& reach1, const Reach<T>& 
   const T spread = r1 * m2 + r2 * m1;
   const T lead = m2 * x1 - m1 * x2;
   const T y1 = r1 * (lead + m1 * r2) / spread, y2 = r2 * (m2 * r1 - lead) / spread;
-  if (value_of(y1) <= 0) return {x1 / m1, T(1.0) / m1, T(0.0)};
-  if (value_of(y2) <= 0) return {x2 / m2, T(0.0), T(1.0) / m2};
+  const T i1 = T(1.0) / m1, i2 = T(1.0) / m2;
+  if (value_of(y1) <= 0) return {x1 * i1, i1, T(0.0)};
+  if (value_of(y2) <= 0) return {x2 * i2, T(0.0), i2};
   const T low = (r1 * x2 + r2 * x1 - r1 * r2) / spread;
   const T k = r1 * r2 - p;
   const T b = T(2.0) * k * (m1 * y2 + m2 * y1);
@@ -61,9 +62,10 @@ Rooted<T> btk(const std::vector<T>& x, const std::vector<Reach<T>>& reach, const
   };
   bool is_blend = false;
   for (std::size_t i = 0; i < k; ++i) is_blend |= i != least && bracket(i, h) > 0;
-  Rooted<T> r{x[least] / reach[least].weight, std::vector<T>(k, T(0.0))};
+  const T inverse = T(1.0) / reach[least].weight;
+  Rooted<T> r{x[least] * inverse, std::vector<T>(k, T(0.0))};
   if (!is_blend) {
-    r.partials[least] = T(1.0) / reach[least].weight;
+    r.partials[least] = inverse;
     return r;
   }
   double slope = 0;
@@ -104,7 +106,9 @@ Rooted<T> btk(const std::vector<T>& x, const std::vector<Reach<T>>& reach, const
 }
 
 // [H] section 5: ranges and weights of two operands that follow the cosine of the angle between their gradients and the
-// ratio |grad x1| / |grad x2|, so that aligned surfaces do not bulge.
+// ratio |grad x1| / |grad x2|, so that aligned surfaces do not bulge. The ratio is 1 of distances; it is kept within
+// [1 / kMostRatio, kMostRatio], so that a weight is never more than so many times another.
+inline constexpr double kMostRatio = 8;
 template <class T>
 T angular_range(double range, const T& cosine, double omega) {
   return (T(1 + omega) - cosine) * T(range);

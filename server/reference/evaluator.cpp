@@ -58,7 +58,11 @@ Evaluator::Evaluator(const blobtree::Scene& scene) : nodes_(scene.nodes) {
   }
 }
 
-FieldState Evaluator::state(const dvec3& p) const {
+FieldState Evaluator::state(const dvec3& point) const {
+  // As on the device, where coordinates beyond would overflow when squared.
+  static constexpr double kFarthest = 1e10;
+  const auto near = [](double x) { return std::clamp(x, -kFarthest, kFarthest); };
+  const dvec3 p{near(point.x), near(point.y), near(point.z)};
   std::vector<FieldState> stack;
   for (const Step& step : steps_) {
     const Node& node = nodes_[step.node];

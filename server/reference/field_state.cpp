@@ -75,7 +75,7 @@ FieldState gradient_blend(const OperatorUse& use, const FieldState& a, const Fie
 }
 
 // The angle between the steering vectors of two signed fields: its cosine, 0 where one of them vanishes, and the ratio
-// of their lengths, within [1e-3, 1e3].
+// of their lengths, as operators::eliminate_bulge() wants it.
 struct Angle {
   Dual cosine, ratio;
 };
@@ -85,7 +85,8 @@ Angle angle_between(const FieldState& a, const FieldState& b) {
   Dual cosine = dot(a.steering, b.steering) / (sqrt(n1) * sqrt(n2));
   if (std::abs(cosine.v) >= 1) cosine = cosine.v > 0 ? 1.0 : -1.0;
   Dual ratio = sqrt(n1 / n2);
-  if (ratio.v < 1e-3 || ratio.v > 1e3) ratio = std::clamp(ratio.v, 1e-3, 1e3);
+  constexpr double kMost = operators::kMostRatio;
+  if (ratio.v < 1 / kMost || ratio.v > kMost) ratio = std::clamp(ratio.v, 1 / kMost, kMost);
   return {cosine, ratio};
 }
 

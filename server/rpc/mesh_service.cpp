@@ -68,16 +68,16 @@ absl::StatusOr<engine::MeshRequest> read_request(const v1::MeshRequest& request,
                                                  const Limits& limits) {
   engine::MeshRequest r;
   ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request));
+  if (!r.bounds && !tape.support.empty() && !(tape.support.max.x < blobtree::kMaxCoordinate)) {
+    return absl::InvalidArgumentError(
+        "bounds: expected, since the operators of this scene do not bound its field by themselves");
+  }
   if (tape.law == operators::Law::kSigned) {
     r.iso = request.iso();
     if (!(std::abs(r.iso) <= blobtree::kMaxCoordinate) || (r.iso > 0 && !r.bounds)) {
       return absl::InvalidArgumentError(absl::StrCat("iso = ", request.iso(),
                                                      ": expected a finite value; above 0, where a signed field has no "
                                                      "bounds of its own, with stated bounds"));
-    }
-    if (!r.bounds && !(tape.support.max.x < blobtree::kMaxCoordinate)) {
-      return absl::InvalidArgumentError(
-          "bounds: expected, since the operators of this scene do not bound its surface by themselves");
     }
   } else if (request.iso() != 0) {
     if (!(request.iso() > 0 && request.iso() < 1)) {

@@ -134,9 +134,9 @@ Angle angle_between(Field a, Field b) {
   Dual ratio = square_root(over(d11, d22));
   // Rounding may pass 1, where the cosine has no gradient.
   cosine = select_dual(cosine, dual(value_of(cosine) > 0.0 ? 1.0 : -1.0), abs(value_of(cosine)) >= 1.0);
-  bool is_extreme = value_of(ratio) < 1e-3 || value_of(ratio) > 1e3;
+  bool is_extreme = value_of(ratio) < 1.0 / MOST_RATIO || value_of(ratio) > MOST_RATIO;
   return Angle(select_dual(cosine, dual(0.0), is_null),
-               select_dual(ratio, dual(is_null ? 1.0 : clamp(value_of(ratio), 1e-3, 1e3)), is_null || is_extreme));
+               select_dual(ratio, dual(is_null ? 1.0 : clamp(value_of(ratio), 1.0 / MOST_RATIO, MOST_RATIO)), is_null || is_extreme));
 }
 
 // Without an angle omega is negative.

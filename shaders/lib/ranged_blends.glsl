@@ -112,7 +112,8 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
 
 Dual angular_range(float range, Dual cosine, float omega) { return range * (dual(1.0 + omega) - cosine); }
 
-// [H] section 5.
+// [H] section 5. The ratio is kept within [1 / MOST_RATIO, MOST_RATIO].
+const float MOST_RATIO = 8.0;
 void eliminate_bulge(inout Reach2 reach, Dual cosine, Dual ratio, float omega) {
   reach.r1 = angular_range(value_of(reach.r1), cosine, omega);
   reach.r2 = angular_range(value_of(reach.r2), cosine, omega);

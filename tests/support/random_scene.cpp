@@ -25,7 +25,12 @@ class SceneMaker {
   v1::Scene make() {
     const int primitives = std::max(1, static_cast<int>(options_.nodes * random_.number(0.5, 0.7)));
     for (int i = 0; i < primitives; ++i) {
-      add_primitive();
+      if (options_.all_operators && i + 8 < primitives && random_.chance(0.15)) {
+        i += 4;  // nodes that are no primitive of their own
+        add_signed_tree();
+      } else {
+        add_primitive();
+      }
       // Blends of blends need depth: use up some of what is there now and then.
       while (unused_.size() > 1 && random_.chance(0.35)) add_above();
     }
@@ -40,6 +45,7 @@ class SceneMaker {
     std::vector<int> children;
     int instances = 1;   // primitives below, shared ones counted at every use
     int transforms = 0;  // the most on a way down
+    bool is_signed = false;
   };
 
   int add(Part part) {
@@ -113,6 +119,136 @@ class SceneMaker {
     add(std::move(part));
   }
 
+  // A signed primitive, or now and then a positive one made signed, that is not in `unused_`.
+  int add_signed_operand() {
+    add_primitive();
+    const int primitive = unused_.back();
+    unused_.pop_back();
+    if (random_.chance(0.1)) {
+      Part part;
+      part.children = {primitive};
+      part.node.mutable_harden();
+      part.is_signed = true;
+      add(std::move(part));
+      const int hardened = unused_.back();
+      unused_.pop_back();
+      return hardened;
+    }
+    parts_[primitive].is_signed = true;
+    v1::Node& node = parts_[primitive].node;
+    google::protobuf::Message& body = kind_of(node);
+    body.GetReflection()->ClearField(&body, body.GetDescriptor()->FindFieldByName("range"));
+    body.GetReflection()->SetEnumValue(&body, body.GetDescriptor()->FindFieldByName("law"), v1::SIGNED);
+    return primitive;
+  }
+
+  // One or two operators of signed fields under a conversion to a positive one.
+  void add_signed_tree() {
+    std::vector<int> operands;
+    const int count = random_.chance(0.6) ? 2 : random_.integer(2, 5);
+    for (int i = 0; i < count; ++i) operands.push_back(add_signed_operand());
+    int result = add_signed_operator(operands);
+    if (random_.chance(0.4)) result = add_signed_operator({result, add_signed_operand()});
+    Part part;
+    part.children = {result};
+    part.node.mutable_soften()->set_range(length());
+    add(std::move(part));
+  }
+
+  v1::Form form() {
+    if (!options_.cuts || random_.chance(0.6)) return v1::UNION;
+    return random_.chance(0.5) ? v1::INTERSECTION : v1::DIFFERENCE;
+  }
+
+  int add_signed_operator(std::vector<int> operands) {
+    Part part;
+    part.is_signed = true;
+    const auto count = static_cast<int>(operands.size());
+    part.children = std::move(operands);
+    v1::Node& node = part.node;
+    switch (random_.integer(0, count == 2 ? 8 : 6)) {
+      case 0:
+        node.mutable_r_union()->set_form(form());
+        break;
+      case 1:
+        node.mutable_pasko()->set_a0(random_.number(-0.2, 0.1));
+        node.mutable_pasko()->set_a1(length());
+        node.mutable_pasko()->set_a2(length());
+        node.mutable_pasko()->set_form(form());
+        break;
+      case 2: {
+        v1::FunctionalBlend& f = *node.mutable_functional();
+        const double h = random_.number(0.05, 0.3);
+        for (const double x : {-0.3, 0.0, 0.2, 0.5}) f.add_x(x + random_.number(0, 0.1));
+        for (const double y : {2.0, 1.0, 0.3, 0.0}) f.add_h(h * y);
+        break;
+      }
+      case 3:
+        options_.cuts&& random_.chance(0.5) ? void(node.mutable_max()) : void(node.mutable_min());
+        break;
+      case 4: {
+        v1::SuperellipticBlend& s = *node.mutable_superelliptic();
+        s.set_exponent(random_.number(1.5, 4));
+        for (int i = 0; i < count; ++i) s.add_ranges(length());
+        s.set_by_angle(count == 2 && random_.chance(0.3));
+        s.set_form(form());
+        break;
+      }
+      case 5:
+      case 6: {
+        v1::Btk& b = *node.mutable_btk();
+        const bool each = random_.chance(0.7);
+        for (int i = 0; i < (each ? count : 1); ++i) {
+          b.add_ranges(length());
+          b.add_powers(random_.number(1.5, 4));
+          b.add_weights(random_.chance(0.3) ? 1 : random_.number(0.3, 2));
+        }
+        b.set_eliminate_bulge(count == 2 && random_.chance(0.3));
+        b.set_form(form());
+        break;
+      }
+      default: {
+        v1::Bt2& b = *node.mutable_bt2();
+        b.set_r1(length());
+        b.set_r2(length());
+        b.set_p(random_.number(-1, 0.8) * b.r1() * b.r2());
+        if (random_.chance(0.6)) b.set_m1(random_.number(0.3, 2));
+        if (random_.chance(0.6)) b.set_m2(random_.number(0.3, 2));
+        b.set_eliminate_bulge(random_.chance(0.3));
+        b.set_form(form());
+      }
+    }
+    add(std::move(part));
+    const int place = unused_.back();
+    unused_.pop_back();
+    return place;
+  }
+
+  // Barthe's operators and Bernhardt's.
+  void fill_classic(v1::Node& node) {
+    switch (random_.integer(0, 2)) {
+      case 0:
+        node.mutable_clean()->set_form(form());
+        break;
+      case 1:
+        node.mutable_barthe()->set_theta1(random_.number(0, 45));
+        node.mutable_barthe()->set_theta2(random_.number(0, 45));
+        node.mutable_barthe()->set_form(form());
+        break;
+      default:
+        node.mutable_bernhardt()->set_theta1(random_.number(0, 45));
+        node.mutable_bernhardt()->set_theta2(random_.number(0, 45));
+        node.mutable_bernhardt()->set_weight(random_.number(0, 1));
+        node.mutable_bernhardt()->set_form(form());
+    }
+  }
+
+  static google::protobuf::Message& kind_of(v1::Node& node) {
+    const auto* reflection = node.GetReflection();
+    return *reflection->MutableMessage(
+        &node, reflection->GetOneofFieldDescriptor(node, v1::Node::descriptor()->FindOneofByName("kind")));
+  }
+
   int take_unused() {
     const int place = random_.integer(0, static_cast<int>(unused_.size()) - 1);
     const int part = unused_[place];
@@ -135,10 +271,12 @@ class SceneMaker {
     while (static_cast<int>(children.size()) < count && !unused_.empty()) children.push_back(take_unused());
     if (options_.sharing && random_.chance(0.15)) {
       const int other = random_.integer(0, static_cast<int>(parts_.size()) - 1);
-      int instances = parts_[other].instances;
+      int instances = parts_[other].is_signed ? kMostInstances : parts_[other].instances;
       for (const int child : children) instances += parts_[child].instances;
-      if (instances <= kMostInstances / 4) children.push_back(other);
-      std::erase(unused_, other);
+      if (instances <= kMostInstances / 4) {
+        children.push_back(other);
+        std::erase(unused_, other);
+      }
     }
     add_operator(std::move(children));
   }
@@ -178,8 +316,11 @@ class SceneMaker {
     Part part;
     part.children = std::move(children);
     const double kind = random_.number(0, options_.cuts ? 1 : 0.7);
-    if (kind < 0.4) {
+    if (options_.all_operators && part.children.size() >= 2 && random_.chance(0.15)) {
+      fill_classic(part.node);
+    } else if (kind < 0.4) {
       fill_gradient(*part.node.mutable_gradient());
+      if (options_.all_operators && part.children.size() >= 2) part.node.mutable_gradient()->set_form(form());
     } else if (kind < 0.55) {
       part.node.mutable_sum();
     } else if (kind < 0.7) {
@@ -200,12 +341,21 @@ class SceneMaker {
     if (random_.chance(0.4)) {
       g.mutable_silhouette()->set_kind(v1::Silhouette::BULGE);
       g.mutable_silhouette()->set_k(random_.number(0.1, 0.9));
+    } else if (options_.all_operators && random_.chance(0.2)) {
+      for (const double s :
+           {1.0, random_.number(0.98, 1.03), random_.number(1.0, 1.15), random_.number(0.98, 1.03), 1.0}) {
+        g.mutable_silhouette()->add_samples(s);
+      }
     } else if (random_.chance(0.5)) {
       g.mutable_silhouette()->set_kind(v1::Silhouette::SMOOTH);
     }
     const double kind = random_.number(0, 1);
     if (kind < 0.1) return;  // the default
     v1::Opening& o = *g.mutable_opening();
+    if (options_.all_operators && random_.chance(0.15)) {
+      for (int i = 0; i < 6; ++i) o.add_samples(random_.number(0, 45));
+      return;
+    }
     if (kind < 0.7) {
       o.set_preset(static_cast<v1::Opening::Preset>(random_.integer(1, 3)));
       if (random_.chance(0.3)) o.set_theta1(random_.number(0, 45));
@@ -246,21 +396,12 @@ class SceneMaker {
   }
 
   static void add_reference(v1::Node& node, const std::string& child) {
-    switch (node.kind_case()) {
-      case v1::Node::kSum:
-        return node.mutable_sum()->add_children(child);
-      case v1::Node::kMax:
-        return node.mutable_max()->add_children(child);
-      case v1::Node::kMin:
-        return node.mutable_min()->add_children(child);
-      case v1::Node::kDifference:
-        return node.mutable_difference()->add_children(child);
-      case v1::Node::kRicci:
-        return node.mutable_ricci()->add_children(child);
-      case v1::Node::kGradient:
-        return node.mutable_gradient()->add_children(child);
-      default:
-        node.mutable_transform()->set_child(child);
+    google::protobuf::Message& body = kind_of(node);
+    const auto* field = body.GetDescriptor()->FindFieldByNumber(1);  // children, or child
+    if (field->is_repeated()) {
+      body.GetReflection()->AddString(&body, field, child);
+    } else {
+      body.GetReflection()->SetString(&body, field, child);
     }
   }
 

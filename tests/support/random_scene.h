@@ -35,8 +35,10 @@ class Random {
 struct RandomSceneOptions {
   // About as many nodes; at least 1.
   int nodes = 40;
-  // Operators other than sum, max and the gradient-based blend, which cut pieces away.
+  // Operators other than sum, max and the gradient-based blend, which cut pieces away, and forms that do.
   bool cuts = true;
+  // Signed fields, with their operators and the conversions between the laws; the classic blends of positive fields.
+  bool all_operators = true;
   bool transforms = true;
   // Some nodes are used twice.
   bool sharing = true;
