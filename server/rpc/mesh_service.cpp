@@ -79,10 +79,10 @@ absl::StatusOr<engine::MeshRequest> read_request(const v1::MeshRequest& request,
                                                      ": expected a finite value; above 0, where a signed field has no "
                                                      "bounds of its own, with stated bounds"));
     }
-  } else if (request.iso() != 0) {
+  } else if (request.has_iso()) {
     if (!(request.iso() > 0 && request.iso() < 1)) {
       return absl::InvalidArgumentError(
-          absl::StrCat("iso = ", request.iso(), ": expected a value within ]0, 1[, or 0 for 0.5"));
+          absl::StrCat("iso = ", request.iso(), ": expected a value within ]0, 1[, or none for 0.5"));
     }
     r.iso = request.iso();
   }

@@ -22,7 +22,9 @@ void MeshFlags::add_to(CLI::App& command) {
   command.add_option("--bounds", bounds, "x0,y0,z0,x1,y1,z1 in model units (default: all of the scene)")
       ->delimiter(',')
       ->expected(6);
-  command.add_option("--iso", iso, "Iso value of the surface, within ]0, 1[")->capture_default_str();
+  command.add_option("--iso", iso,
+                     "Iso value of the surface: within ]0, 1[ of a positive field (default: 0.5), any of a signed one "
+                     "(default: 0)");
   import.add_to(command);
 }
 
@@ -39,7 +41,7 @@ absl::StatusOr<Mesh> MeshFlags::request(const Context& context, double& seconds)
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     (i < 3 ? request.mutable_bounds_min() : request.mutable_bounds_max())->Add(bounds[i]);
   }
-  request.set_iso(iso);
+  if (iso) request.set_iso(*iso);
   request.set_omit_normals(omit_normals);
   auto client = context.connect();
   if (!client.ok()) return client.status();

@@ -17,7 +17,7 @@ struct MeshFlags {
   std::optional<double> cell;
   std::optional<std::uint32_t> resolution;
   std::vector<double> bounds;  // x0, y0, z0, x1, y1, z1, or empty
-  double iso = 0.5;
+  std::optional<double> iso;
   bool omit_normals = false;
   ImportFlags import;
 
