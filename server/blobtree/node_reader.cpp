@@ -218,6 +218,9 @@ std::vector<const std::string*> child_references(const v1::Node& message) {
     case v1::Node::kGradient:
       list = &message.gradient().children();
       break;
+    case v1::Node::kCustom:
+      list = &message.custom().children();
+      break;
     case v1::Node::kTransform:
       return {&message.transform().child()};
     default:

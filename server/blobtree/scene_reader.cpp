@@ -147,7 +147,7 @@ absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
 
 }  // namespace
 
-absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits) {
+absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits, const OperatorTable& operators) {
   const auto count = static_cast<std::size_t>(message.nodes_size());
   if (count == 0) return absl::InvalidArgumentError("nodes = []: expected at least 1 node");
   if (count > limits.max_nodes) {
@@ -160,6 +160,15 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
     Node& node = scene.nodes[i];
     node.path = path_of(static_cast<int>(i), message.nodes(i));
     if (absl::Status s = references.add(message.nodes(i), i, node.path); !s.ok()) return s;
+    if (message.nodes(i).has_custom()) {
+      // A stand-in: every custom operator is a gradient blend.
+      const auto op = operators.find(message.nodes(i).custom().operator_());
+      if (op == operators.end()) return absl::InvalidArgumentError(absl::StrCat(node.path, ".operator: unknown"));
+      node.kind = NodeKind::kGradient;
+      node.opening = op->second->opening;
+      node.silhouette = op->second->silhouette;
+      continue;
+    }
     if (absl::Status s = read_node(message.nodes(i), node); !s.ok()) return s;
   }
   for (std::size_t i = 0; i < count; ++i) {

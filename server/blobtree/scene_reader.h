@@ -3,6 +3,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "blobtree/operator_table.h"
 #include "blobtree/scene.h"
 #include "isofield/v1/scene.pb.h"
 
@@ -10,6 +11,8 @@ namespace isofield::blobtree {
 
 // INVALID_ARGUMENT with the node's path, the field, the value and what would be accepted (scene.proto). Uses no
 // recursion: depth is limited by memory alone.
-absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits = {});
+// `operators`: those that custom nodes name.
+absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits = {},
+                                 const OperatorTable& operators = {});
 
 }  // namespace isofield::blobtree

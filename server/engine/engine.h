@@ -12,6 +12,7 @@
 #include "engine/field_evaluator.h"
 #include "engine/kernel_cache.h"
 #include "engine/mesher.h"
+#include "engine/operator_evaluator.h"
 #include "engine/resident_scene.h"
 #include "gpu/device.h"
 #include "isofield/v1/scene.pb.h"
@@ -41,6 +42,7 @@ class Engine {
   gpu::Device& device() { return *device_; }
   FieldEvaluator& fields() { return fields_; }
   Mesher& mesher() { return mesher_; }
+  OperatorEvaluator& operators() { return operators_; }
 
  private:
   Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits);
@@ -50,6 +52,7 @@ class Engine {
   KernelCache kernels_;
   FieldEvaluator fields_;
   Mesher mesher_;
+  OperatorEvaluator operators_;
   mutable std::mutex mutex_;
   absl::flat_hash_map<std::uint64_t, SceneLease> resident_;
 };
