@@ -1,6 +1,7 @@
 #include "catalog/operator_catalog.h"
 
 #include <absl/strings/str_cat.h>
+#include <absl/strings/str_join.h>
 
 #include "catalog/built_in_operators.h"
 #include "catalog/name.h"
@@ -13,9 +14,9 @@ absl::Status OperatorCatalog::not_found(const std::string& name) const {
     return absl::NotFoundError(absl::StrCat("'", name, "' is a built-in operator: expected a custom one; there are ",
                                             there.empty() ? "none" : there));
   }
-  return absl::NotFoundError(absl::StrCat(
-      "no operator is named '", name, "'; ",
-      there.empty() ? "there are no custom operators" : absl::StrCat("there are the built-in ones and ", there)));
+  return absl::NotFoundError(absl::StrCat("no operator is named '", name, "'; there are the built-in ones ",
+                                          absl::StrJoin(built_in_names(), ", "), " and ",
+                                          there.empty() ? "no custom ones" : there));
 }
 
 absl::StatusOr<OperatorEntry> OperatorCatalog::put(const std::string& name, v1::Operator message,

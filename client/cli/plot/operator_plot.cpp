@@ -41,6 +41,24 @@ void fill_inside(const OperatorPlot& plot, const std::vector<float>& g, const Ax
   }
 }
 
+// How far g has come from the unblended value on the way from the nearer axis: a fold inside the blend, where it comes
+// back to it, is no boundary.
+std::vector<float> departure_of(const OperatorPlot& plot, const std::vector<float>& g) {
+  std::vector<float> departure(g.size());
+  for (std::size_t i = 0; i < g.size(); ++i) departure[i] = std::abs(g[i] - plot.unblended[i]);
+  const std::size_t side = plot.side;
+  for (std::size_t along = 0; along < side; ++along) {
+    for (std::size_t i = 1; i <= along; ++i) {
+      float& in_row = departure[along * side + i];
+      in_row = std::max(in_row, departure[along * side + i - 1]);
+      if (i == along) break;  // the diagonal is the row's
+      float& in_column = departure[i * side + along];
+      in_column = std::max(in_column, departure[(i - 1) * side + along]);
+    }
+  }
+  return departure;
+}
+
 void draw_panel(const OperatorPlot& plot, const OperatorPlot::Panel& panel, const Axes& axes, Canvas& canvas) {
   fill_inside(plot, panel.g, axes, canvas);
   const auto [least, most] = std::minmax_element(panel.g.begin(), panel.g.end());
@@ -55,9 +73,7 @@ void draw_panel(const OperatorPlot& plot, const OperatorPlot::Panel& panel, cons
   canvas.stroke(placed(std::move(levels), plot, axes), 1.1, kLevel);
   canvas.stroke(placed(level_curve(panel.g, plot.side, static_cast<float>(plot.surface)), plot, axes), 2.6, kSurface);
   if (!plot.unblended.empty()) {
-    std::vector<float> departure(panel.g.size());
-    for (std::size_t i = 0; i < departure.size(); ++i) departure[i] = std::abs(panel.g[i] - plot.unblended[i]);
-    canvas.stroke(placed(level_curve(departure, plot.side, kDeparture), plot, axes), 1.8, kBoundary);
+    canvas.stroke(placed(level_curve(departure_of(plot, panel.g), plot.side, kDeparture), plot, axes), 1.8, kBoundary);
   }
   axes.draw(canvas);
   canvas.text(panel.title, axes.left + axes.width / 2, axes.top - axes.text_height, 1.1 * axes.text_height, 0.5, kInk);
