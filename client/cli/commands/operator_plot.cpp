@@ -31,7 +31,7 @@ struct PlotArguments {
 };
 
 // What the operator is where it blends nothing; nothing: there is no such place.
-enum class Unblended { kNowhere, kMax, kMin, kFirstLessSecond };
+enum class Unblended { kNowhere, kMax, kMin };
 
 v1::Form form_of(const v1::Operator& message) {
   switch (message.kind_case()) {
@@ -69,20 +69,9 @@ Unblended unblended_of(const v1::Operator& message, bool is_signed) {
     case v1::INTERSECTION:
       return is_signed ? Unblended::kMax : Unblended::kMin;
     case v1::DIFFERENCE:
-      return Unblended::kFirstLessSecond;
+      return Unblended::kNowhere;  // its boundaries do not run from the axes to the diagonal
     default:
       return is_signed ? Unblended::kMin : Unblended::kMax;
-  }
-}
-
-float unblended_value(Unblended unblended, bool is_signed, float a, float b) {
-  switch (unblended) {
-    case Unblended::kMin:
-      return std::min(a, b);
-    case Unblended::kFirstLessSecond:
-      return is_signed ? std::max(a, -b) : std::max(0.0f, std::min(a, 1 - b));
-    default:
-      return std::max(a, b);
   }
 }
 
@@ -137,7 +126,8 @@ absl::StatusOr<OperatorPlot> sample_operator(const PlotArguments& arguments, Cho
         rows.push_back(static_cast<float>(plot.low + step * i));
         rows.push_back(static_cast<float>(plot.low + step * j));
         if (panel == 0 && unblended != Unblended::kNowhere) {
-          plot.unblended.push_back(unblended_value(unblended, is_signed, rows[rows.size() - 2], rows.back()));
+          const auto [least, most] = std::minmax(rows[rows.size() - 2], rows.back());
+          plot.unblended.push_back(unblended == Unblended::kMin ? least : most);
         }
         if (takes_angle) rows.push_back(static_cast<float>(angles[panel] * kRadians));
       }

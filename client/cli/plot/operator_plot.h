@@ -20,7 +20,7 @@ struct OperatorPlot {
   double surface = 0.5;  // the level that is drawn heavily
   bool inside_above = true;
   // What g is where nothing is blended, as in a panel's g; empty: not drawn. The boundary of the blend is where g
-  // leaves it.
+  // leaves it on the way from an axis to the diagonal.
   std::vector<float> unblended;
   std::vector<Panel> panels;
 };
