@@ -27,6 +27,11 @@ TEST_F(OperatorCliTest, KeepsOperators) {
   EXPECT_TRUE(absl::StrContains(err_, "no operator \"other\"")) << err_;
 }
 
+TEST_F(OperatorCliTest, KeepsTheExample) {
+  EXPECT_EQ(run("operator put " ISOFIELD_SOURCE_DIR "/client/examples/operators/fold.json"), 0) << err_;
+  EXPECT_TRUE(absl::StrContains(out_, "fold: version 1")) << out_;
+}
+
 TEST_F(OperatorCliTest, EvaluatesTables) {
   EXPECT_EQ(run("operator eval gradient --param silhouette=bulge --param K=0.8 --points -",
                 "f1,f2,theta,g\n0.25,0.5,0.125,9\n1,0.1,0,9\n"),
