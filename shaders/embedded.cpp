@@ -14,7 +14,7 @@ namespace {
 #include "mesh_vertices.inc"
 #include "mesh_normals.inc"
 #include "mesh_triangles.inc"
-#include "operator_probe.inc"
+#include "operator_eval.inc"
 
 }  // namespace
 
@@ -29,6 +29,6 @@ const Spirv kMeshList{mesh_list};
 const Spirv kMeshVertices{mesh_vertices};
 const Spirv kMeshNormals{mesh_normals};
 const Spirv kMeshTriangles{mesh_triangles};
-const Spirv kOperatorProbe{operator_probe};
+const Spirv kOperatorEval{operator_eval};
 
 }  // namespace isofield::shaders

@@ -11,6 +11,6 @@ using Spirv = std::span<const std::uint32_t>;
 extern const Spirv kPointsValue, kPointsGradient;
 extern const Spirv kGridValue, kGridGradient;
 extern const Spirv kMeshSample, kMeshClassify, kMeshConnect, kMeshList, kMeshVertices, kMeshNormals, kMeshTriangles;
-extern const Spirv kOperatorProbe;
+extern const Spirv kOperatorEval;
 
 }  // namespace isofield::shaders

@@ -39,6 +39,7 @@ absl::StatusOr<Client> Client::connect(const std::string& address, const ClientO
   impl->address = address;
   impl->options = options;
   impl->scenes = v1::SceneService::NewStub(channel);
+  impl->operators = v1::OperatorService::NewStub(channel);
   impl->fields = v1::FieldService::NewStub(channel);
   impl->meshes = v1::MeshService::NewStub(channel);
   impl->infos = v1::InfoService::NewStub(channel);

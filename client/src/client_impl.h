@@ -13,6 +13,7 @@
 #include "isofield/v1/field_service.grpc.pb.h"
 #include "isofield/v1/info_service.grpc.pb.h"
 #include "isofield/v1/mesh_service.grpc.pb.h"
+#include "isofield/v1/operator_service.grpc.pb.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
 
 namespace isofield {
@@ -21,6 +22,7 @@ struct Client::Impl {
   std::string address;
   ClientOptions options;
   std::unique_ptr<v1::SceneService::Stub> scenes;
+  std::unique_ptr<v1::OperatorService::Stub> operators;
   std::unique_ptr<v1::FieldService::Stub> fields;
   std::unique_ptr<v1::MeshService::Stub> meshes;
   std::unique_ptr<v1::InfoService::Stub> infos;

@@ -36,12 +36,12 @@ absl::Status append(const v1::Tensor& tensor, v1::Tensor::DType dtype, std::uint
 
 }  // namespace
 
-void set_points(std::span<const float> xyz, v1::Tensor& tensor) {
+void set_floats(std::span<const float> numbers, std::uint64_t columns, v1::Tensor& tensor) {
   tensor.set_dtype(v1::Tensor::FLOAT32);
   tensor.clear_shape();
-  tensor.add_shape(xyz.size() / 3);
-  tensor.add_shape(3);
-  tensor.set_data(xyz.data(), xyz.size_bytes());
+  tensor.add_shape(numbers.size() / columns);
+  tensor.add_shape(columns);
+  tensor.set_data(numbers.data(), numbers.size_bytes());
 }
 
 absl::Status append_floats(const v1::Tensor& tensor, std::uint64_t columns, std::vector<float>& out) {

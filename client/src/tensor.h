@@ -10,8 +10,11 @@
 
 namespace isofield {
 
-// Makes `tensor` the FLOAT32 array [xyz.size() / 3, 3].
-void set_points(std::span<const float> xyz, v1::Tensor& tensor);
+// Makes `tensor` the FLOAT32 array [numbers.size() / columns, columns].
+void set_floats(std::span<const float> numbers, std::uint64_t columns, v1::Tensor& tensor);
+inline void set_points(std::span<const float> xyz, v1::Tensor& tensor) {
+  set_floats(xyz, 3, tensor);
+}
 
 // Appends an array whose last dimension is `columns` to `out`.
 // INTERNAL: the type, the shape and the bytes do not fit each other or the expectation.

@@ -3,11 +3,10 @@
 #include <absl/strings/str_cat.h>
 
 #include <algorithm>
-#include <map>
 
 #include "blobtree/bounds.h"
 #include "blobtree/leaf_placer.h"
-#include "operators/profile_table.h"
+#include "blobtree/operation.h"
 
 namespace isofield::blobtree {
 namespace {
@@ -16,48 +15,8 @@ using operators::Form;
 using operators::Kind;
 using operators::Law;
 
-Operator opcode_of(const operators::Operator& op, Law law) {
-  switch (op.kind) {
-    case Kind::kSum:
-      return Operator::kSum;
-    case Kind::kMax:
-      return Operator::kMax;
-    case Kind::kMin:
-      return Operator::kMin;
-    case Kind::kDifference:
-      // max(x1, -x2) = -min(-x1, x2).
-      return law == Law::kSigned ? Operator::kMin : Operator::kSubtract;
-    case Kind::kRicci:
-      return Operator::kRicci;
-    case Kind::kGradient:
-      if (op.has_volume()) return Operator::kGradientVolume;
-      return op.silhouette.kind == operators::Silhouette::Kind::kSmooth ? Operator::kGradient
-                                                                        : Operator::kGradientTable;
-    case Kind::kSampled:
-      return Operator::kGradientVolume;
-    case Kind::kClean:
-      return Operator::kClean;
-    case Kind::kBarthe:
-      return Operator::kBarthe;
-    case Kind::kBernhardt:
-      return Operator::kBernhardt;
-    case Kind::kRUnion:
-    case Kind::kPasko:
-      return Operator::kPasko;
-    case Kind::kSuperelliptic:
-      return Operator::kSuperelliptic;
-    case Kind::kFunctional:
-      return Operator::kFunctional;
-    case Kind::kBt2:
-      return Operator::kBt2;
-    case Kind::kBtk:
-      return Operator::kBtk;
-  }
-  return Operator::kMax;
-}
-
 bool is_n_ary(const Node& node) {
-  return node.op && (node.op->kind == Kind::kBtk || node.op->kind == Kind::kSuperelliptic);
+  return node.op && blobtree::is_n_ary(*node.op);
 }
 bool is_conversion(const Node& node) {
   return node.kind == NodeKind::kSoften || node.kind == NodeKind::kHarden;
@@ -66,26 +25,6 @@ bool is_conversion(const Node& node) {
 bool is_transparent(const Node& node) {
   return node.children.size() == 1 && !is_conversion(node);
 }
-// ... of which it makes a difference which operand is the first.
-bool is_ordered(const operators::Operator& op) {
-  switch (op.kind) {
-    case Kind::kBarthe:
-    case Kind::kBernhardt:
-    case Kind::kPasko:
-    case Kind::kFunctional:
-    case Kind::kBt2:
-      return true;
-    case Kind::kGradient:
-      if (!op.silhouette.is_symmetric()) return true;
-      break;
-    case Kind::kSampled:
-      return true;
-    default:
-      break;
-  }
-  return op.form == Form::kDifference;
-}
-
 class Compiler {
  public:
   explicit Compiler(const Scene& scene) : scene_(scene) {}
@@ -162,10 +101,7 @@ class Compiler {
   }
 
   std::uint32_t add_operation(const Node& node, std::uint32_t index) {
-    const auto place = static_cast<std::uint32_t>(tape_.operations.size());
     Operation o;
-    o.node = index;
-    o.record = static_cast<std::uint32_t>(tape_.record_owners.size());
     if (node.kind == NodeKind::kSoften) {
       o.op = Operator::kSoften;
       o.range = node.range;
@@ -174,16 +110,11 @@ class Compiler {
       o.factor = -1;
       o.offset = 0.5;
     } else {
-      o.op = opcode_of(*node.op, node.law);
-      o.what = node.op;
-      if (node.op->kind == Kind::kGradient) o.silhouette_bound = bound_of(node.op->silhouette);
-      if (node.op->kind == Kind::kSampled) o.silhouette_bound = operators::sampled_bound(*node.op->samples);
-      if (is_n_ary(node)) tape_.arity = std::max(tape_.arity, static_cast<std::uint32_t>(node.children.size()));
-      o.operands = static_cast<std::uint32_t>(is_n_ary(node) ? node.children.size() : 0);
+      o = operation_of(node.op, node.law, static_cast<std::uint32_t>(node.children.size()), bounds_);
+      tape_.arity = std::max(tape_.arity, o.operands);
     }
-    tape_.record_owners.resize(o.record + operation_record_size(o), place);
-    tape_.operations.push_back(std::move(o));
-    return place;
+    o.node = index;
+    return blobtree::add_operation(tape_, std::move(o));
   }
 
   // How the operand that is emitted as the i-th joins those before.
@@ -198,12 +129,6 @@ class Compiler {
     join.mode.is_signed = node.law == Law::kSigned;
     join.mode.is_exchanged = exchanged && (is_ordered(*node.op) || join.mode.form == Form::kDifference);
     return join;
-  }
-
-  double bound_of(const operators::Silhouette& silhouette) {
-    const auto [known, is_new] = bounds_.try_emplace(silhouette);
-    if (is_new) known->second = operators::silhouette_bound(silhouette);
-    return known->second;
   }
 
   absl::Status emit_all() {
@@ -254,25 +179,7 @@ class Compiler {
     tape_.code.push_back(i);
     tape_.operand_set |= 1u << static_cast<std::uint32_t>(operand);
     tape_.operator_set |= 1u << static_cast<std::uint32_t>(join.op);
-    if (i.code >> 16 != 0) tape_.operator_set |= kModes;
-    if (join.op == Operator::kSubtract || join.op == Operator::kSubtractFrom) {
-      // Where the subtrahend is gone, the pruner clamps fields above 1 by subtracting 0.
-      tape_.operand_set |= 1u << static_cast<std::uint32_t>(Operand::kZero);
-      tape_.operator_set |= 1u << static_cast<std::uint32_t>(Operator::kSubtract);
-    }
-    if (join.op == Operator::kPush) return;
-    const auto& what = tape_.operations[join.operation].what;
-    if (what && what->by_angle) tape_.operator_set |= kByAngle;
-    if (join.mode.form == Form::kDifference && !join.mode.is_signed) {
-      tape_.operand_set |= 1u << static_cast<std::uint32_t>(Operand::kZero);  // likewise
-      tape_.operator_set |= 1u << static_cast<std::uint32_t>(Operator::kSubtract);
-    }
-    // What remains of a blend with weights beyond its range is one operand over its weight; what remains of a positive
-    // field that is made signed, 0.5 less 0.
-    if (join.op == Operator::kBt2 || join.op == Operator::kBtk || join.op == Operator::kLinear) {
-      tape_.operator_set |= 1u << static_cast<std::uint32_t>(Operator::kLinear);
-      tape_.operand_set |= 1u << static_cast<std::uint32_t>(Operand::kZero);
-    }
+    if (join.op != Operator::kPush) add_sets(tape_, tape_.operations[join.operation], join.mode);
   }
 
   // The node on top is complete: join its value, and tell its parent what it needs to know.
@@ -332,22 +239,10 @@ class Compiler {
   std::vector<char> leaf_like_;
   std::vector<Frame> stack_;
   std::vector<Affine> maps_;
-  std::map<operators::Silhouette, double> bounds_;
+  SilhouetteBounds bounds_;
 };
 
 }  // namespace
-
-std::uint32_t operation_record_size(const Operation& operation) {
-  switch (operation.op) {
-    case Operator::kBt2:
-      return 3;
-    case Operator::kSuperelliptic:
-    case Operator::kBtk:
-      return 1 + operation.operands;
-    default:
-      return 1;
-  }
-}
 
 std::pair<double, double> Tape::linear(const Instruction& i) const {
   const Operation& o = operation(i);

@@ -1,38 +1,20 @@
 #include "catalog/catalog.h"
 
-#include <absl/strings/ascii.h>
 #include <absl/strings/str_cat.h>
 
-#include <algorithm>
+#include "catalog/name.h"
 
 namespace isofield::catalog {
-namespace {
-
-bool is_name(const std::string& name) {
-  return !name.empty() && name.size() <= 128 && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return absl::ascii_isalnum(c) || c == '_' || c == '-' || c == '.' || c == '/';
-  });
-}
-
-}  // namespace
-
 absl::Status Catalog::not_found(const std::string& name) const {
-  std::string there;
-  int listed = 0;
-  for (const auto& [known, entry] : scenes_) {
-    if (++listed > 10) break;
-    absl::StrAppend(&there, listed > 1 ? ", '" : "'", known, "'");
-  }
-  if (listed > 10) absl::StrAppend(&there, ", ...");
+  const std::string there = list_names(scenes_);
   return absl::NotFoundError(absl::StrCat("no scene is named '", name, "'; ",
                                           there.empty() ? "the catalog is empty" : absl::StrCat("there are ", there)));
 }
 
-absl::StatusOr<Catalog::Put> Catalog::put(const std::string& name, v1::Scene scene, const Condition& condition) {
-  if (!is_name(name)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("name = '", name, "': expected 1 to 128 characters of A-Z a-z 0-9 _ - . /"));
-  }
+absl::StatusOr<Catalog::Put> Catalog::put(const std::string& name, v1::Scene scene,
+                                          std::shared_ptr<const blobtree::OperatorTable> operators,
+                                          const Condition& condition) {
+  if (absl::Status s = check_name(name); !s.ok()) return s;
   auto stored = std::make_shared<const v1::Scene>(std::move(scene));
   const std::lock_guard lock(mutex_);
   const auto it = scenes_.find(name);
@@ -52,7 +34,7 @@ absl::StatusOr<Catalog::Put> Catalog::put(const std::string& name, v1::Scene sce
   }
   Put put;
   put.replaced_version = it == scenes_.end() ? 0 : it->second.version;
-  put.entry = {name, ++last_version_, std::move(stored)};
+  put.entry = {name, ++last_version_, std::move(stored), std::move(operators)};
   scenes_[name] = put.entry;
   return put;
 }

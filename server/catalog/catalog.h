@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "blobtree/operator_table.h"
 #include "isofield/v1/scene.pb.h"
 
 namespace isofield::catalog {
@@ -20,6 +21,8 @@ struct Entry {
   std::string name;
   std::uint64_t version = 0;
   std::shared_ptr<const v1::Scene> scene;
+  // Those that it was put with: what the names in its custom nodes mean, whatever becomes of the names.
+  std::shared_ptr<const blobtree::OperatorTable> operators;
 };
 
 // What must hold for a put to happen.
@@ -38,7 +41,8 @@ class Catalog {
     std::uint64_t replaced_version = 0;  // 0: none
   };
   // INVALID_ARGUMENT: the name. ALREADY_EXISTS, NOT_FOUND, ABORTED: the condition. RESOURCE_EXHAUSTED: full.
-  absl::StatusOr<Put> put(const std::string& name, v1::Scene scene, const Condition& condition);
+  absl::StatusOr<Put> put(const std::string& name, v1::Scene scene,
+                          std::shared_ptr<const blobtree::OperatorTable> operators, const Condition& condition);
   // NOT_FOUND, with the names that there are.
   absl::StatusOr<Entry> get(const std::string& name) const;
   std::vector<Entry> list() const;

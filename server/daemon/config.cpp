@@ -50,6 +50,8 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   app.add_option("--max-primitives", c.limits.scene.max_primitives, "Primitives of a scene after instancing")
       ->envname("ISOFIELD_MAX_PRIMITIVES");
   app.add_option("--max-scenes", c.limits.max_scenes, "Scenes in the catalog")->envname("ISOFIELD_MAX_SCENES");
+  app.add_option("--max-operators", c.limits.max_operators, "Custom operators in the catalog")
+      ->envname("ISOFIELD_MAX_OPERATORS");
   app.add_option("--max-message-bytes", c.limits.max_message_bytes, "Bytes of a message received")
       ->envname("ISOFIELD_MAX_MESSAGE_BYTES")
       ->check(CLI::Range(std::uint64_t{65536}, std::uint64_t{1} << 30));

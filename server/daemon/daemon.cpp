@@ -17,12 +17,14 @@
 #include <thread>
 
 #include "catalog/catalog.h"
+#include "catalog/operator_catalog.h"
 #include "daemon/socket.h"
 #include "engine/engine.h"
 #include "engine/status_macros.h"
 #include "rpc/field_service.h"
 #include "rpc/info_service.h"
 #include "rpc/mesh_service.h"
+#include "rpc/operator_service.h"
 #include "rpc/scene_service.h"
 #include "rpc/scene_source.h"
 
@@ -109,13 +111,16 @@ absl::Status run(const Config& config, const std::string& version) {
   spdlog::info("isofieldd {} on {} ({}, Vulkan {})", version, d.name, d.driver, d.vulkan_version);
 
   catalog::Catalog catalog(config.limits.max_scenes);
-  const rpc::SceneSource scenes(catalog, *engine);
-  rpc::SceneService scene_service(catalog, *engine);
+  catalog::OperatorCatalog operators(config.limits.max_operators);
+  const rpc::SceneSource scenes(catalog, operators, *engine);
+  rpc::SceneService scene_service(catalog, operators, *engine);
+  rpc::OperatorService operator_service(operators, scenes, *engine, config.limits);
   rpc::FieldService field_service(scenes, *engine, config.limits);
   rpc::MeshService mesh_service(scenes, *engine, config.limits);
-  rpc::InfoService info_service(*engine, config.limits, version);
-  ISOFIELD_ASSIGN_OR_RETURN(const std::unique_ptr<grpc::Server> server,
-                            start_server(config, {&scene_service, &field_service, &mesh_service, &info_service}));
+  rpc::InfoService info_service(operators, *engine, config.limits, version);
+  ISOFIELD_ASSIGN_OR_RETURN(
+      const std::unique_ptr<grpc::Server> server,
+      start_server(config, {&scene_service, &operator_service, &field_service, &mesh_service, &info_service}));
 
   int signal = 0;
   sigwait(&signals, &signal);

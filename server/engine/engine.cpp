@@ -11,7 +11,8 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
       limits_(limits),
       kernels_(*device_),
       fields_(*device_, kernels_),
-      mesher_(*device_, kernels_) {}
+      mesher_(*device_, kernels_),
+      operators_(*device_, kernels_) {}
 
 absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions& options,
                                                        const blobtree::SceneLimits& limits) {
@@ -19,19 +20,20 @@ absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions&
   return std::unique_ptr<Engine>(new Engine(std::move(device), limits));
 }
 
-absl::StatusOr<SceneLease> Engine::make_resident(const v1::Scene& scene) {
-  ISOFIELD_ASSIGN_OR_RETURN(const blobtree::Scene valid, blobtree::read_scene(scene, limits_));
+absl::StatusOr<SceneLease> Engine::make_resident(const v1::Scene& scene, const blobtree::OperatorTable& operators) {
+  ISOFIELD_ASSIGN_OR_RETURN(const blobtree::Scene valid, blobtree::read_scene(scene, limits_, operators));
   ISOFIELD_ASSIGN_OR_RETURN(blobtree::Tape tape, blobtree::compile(valid));
   return ResidentScene::create(*device_, std::move(tape));
 }
 
-absl::StatusOr<SceneLease> Engine::acquire(std::uint64_t version, const v1::Scene& scene) {
+absl::StatusOr<SceneLease> Engine::acquire(std::uint64_t version, const v1::Scene& scene,
+                                           const blobtree::OperatorTable& operators) {
   {
     const std::lock_guard lock(mutex_);
     const auto it = resident_.find(version);
     if (it != resident_.end()) return it->second;
   }
-  return make_resident(scene);
+  return make_resident(scene, operators);
 }
 
 void Engine::keep(std::uint64_t version, SceneLease scene) {

@@ -8,10 +8,12 @@
 #include <memory>
 #include <mutex>
 
+#include "blobtree/operator_table.h"
 #include "blobtree/scene.h"
 #include "engine/field_evaluator.h"
 #include "engine/kernel_cache.h"
 #include "engine/mesher.h"
+#include "engine/operator_evaluator.h"
 #include "engine/resident_scene.h"
 #include "gpu/device.h"
 #include "isofield/v1/scene.pb.h"
@@ -24,11 +26,13 @@ class Engine {
   static absl::StatusOr<std::unique_ptr<Engine>> create(const gpu::DeviceOptions& options,
                                                         const blobtree::SceneLimits& limits);
 
-  // Validates, compiles and uploads. INVALID_ARGUMENT as stated in scene.proto.
-  absl::StatusOr<SceneLease> make_resident(const v1::Scene& scene);
+  // Validates, compiles and uploads. `operators`: those that custom nodes name. INVALID_ARGUMENT as stated in
+  // scene.proto.
+  absl::StatusOr<SceneLease> make_resident(const v1::Scene& scene, const blobtree::OperatorTable& operators = {});
 
   // The resident form of a version of the catalog, made now if it is not there.
-  absl::StatusOr<SceneLease> acquire(std::uint64_t version, const v1::Scene& scene);
+  absl::StatusOr<SceneLease> acquire(std::uint64_t version, const v1::Scene& scene,
+                                     const blobtree::OperatorTable& operators = {});
   // Keeps a scene for acquire(); drops it again. Leases out live on.
   void keep(std::uint64_t version, SceneLease scene);
   void drop(std::uint64_t version);
@@ -41,6 +45,7 @@ class Engine {
   gpu::Device& device() { return *device_; }
   FieldEvaluator& fields() { return fields_; }
   Mesher& mesher() { return mesher_; }
+  OperatorEvaluator& operators() { return operators_; }
 
  private:
   Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits);
@@ -50,6 +55,7 @@ class Engine {
   KernelCache kernels_;
   FieldEvaluator fields_;
   Mesher mesher_;
+  OperatorEvaluator operators_;
   mutable std::mutex mutex_;
   absl::flat_hash_map<std::uint64_t, SceneLease> resident_;
 };

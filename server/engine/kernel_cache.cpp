@@ -36,8 +36,12 @@ KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
 }
 
 absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
-  const Key key{reinterpret_cast<std::uintptr_t>(shader.data()), kind.operand_set, kind.operator_set, kind.stack_depth,
-                kind.tape_length, kind.arity};
+  const Key key{reinterpret_cast<std::uintptr_t>(shader.data()),
+                kind.operand_set,
+                kind.operator_set,
+                kind.stack_depth,
+                kind.tape_length,
+                kind.arity};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
   bool compiles = false;

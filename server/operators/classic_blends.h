@@ -58,21 +58,24 @@ Binary<T> clean_union(const T& f1, const T& f2) {
 }
 
 // Barthe's blend, [G] eqs. 12 and 13: between the lines at theta1 from the f1 axis and theta2 from the f2 axis level
-// curves are elliptical arcs. t = tan(theta).
+// curves are elliptical arcs: the one at level C lies around C (t2, t1) with semi-axes C (1 - t2) and C (1 - t1), where
+// t = tan(theta). A quadratic in C, written in what C is above the greater field, so that nothing cancels where the
+// lines are close to each other.
 template <class T>
 Binary<T> barthe_blend(const T& f1, const T& f2, double t1, double t2) {
   using std::sqrt;
+  if (value_of(f1) < value_of(f2)) return exchanged(barthe_blend(f2, f1, t2, t1));
   if (value_of(f2) <= t1 * value_of(f1)) return {f1, T(1.0), T(0.0)};
   if (value_of(f1) <= t2 * value_of(f2)) return {f2, T(0.0), T(1.0)};
-  // The arc around C (t2, t1) with semi-axes C (1 - t2) and C (1 - t1): a quadratic in C.
-  const double s1 = (1 - t1) * (1 - t1), s2 = (1 - t2) * (1 - t2);
-  const double a = t2 * t2 * s1 + t1 * t1 * s2 - s1 * s2;
-  const T b = f1 * T(t2 * s1) + f2 * T(t1 * s2);
-  const T d = f1 * f1 * T(s1) + f2 * f2 * T(s2);
-  const T c = d / (b + sqrt(b * b - d * T(a)));
-  const T x = (f1 - c * T(t2)) * T(s1), y = (f2 - c * T(t1)) * T(s2);
-  const T slope = x * T(t2) + y * T(t1) + c * T(s1 * s2);
-  return {c, x / slope, y / slope};
+  const double s1 = std::max(1 - t1, 1e-6), s2 = std::max(1 - t2, 1e-6);
+  const double tau1 = t1 / s1, tau2 = t2 / s2;
+  const T q0 = (f2 - f1 * T(t1)) * T(1 / s1);
+  const T b = f1 * T(1 + tau2) + q0 * T(tau1);
+  const T above = q0 * q0 / (b + sqrt(b * b - q0 * q0 * T(tau1 * tau1 + tau2 * tau2 - 1)));
+  const T c = f1 + above;
+  const T p = f1 - above * T(tau2), q = q0 - above * T(tau1);
+  const T slope = p * T(tau2) + q * T(tau1) + c;
+  return {c, p / slope * T(1 / s2), q / slope * T(1 / s1)};
 }
 
 // Bernhardt's interpolation between the clean union (weight 0) and Barthe's blend (weight 1).

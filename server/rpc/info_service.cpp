@@ -23,10 +23,12 @@ grpc::Status InfoService::GetInfo(grpc::ServerContext*, const v1::GetInfoRequest
   limits.set_max_points_per_message(limits_.max_points_per_message);
   limits.set_max_grid_points(limits_.max_grid_points);
   limits.set_max_mesh_cells(limits_.max_mesh_cells);
+  limits.set_max_operators(limits_.max_operators);
   const engine::Engine::Residency residency = engine_.residency();
   response->set_resident_scenes(residency.scenes);
   response->set_scene_bytes(residency.bytes);
   response->set_device_bytes(engine_.device().allocated_bytes());
+  response->set_operators(operators_.size());
   response->set_uptime_seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
   return grpc::Status::OK;
 }

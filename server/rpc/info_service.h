@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 
+#include "catalog/operator_catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/info_service.grpc.pb.h"
 #include "rpc/limits.h"
@@ -12,12 +13,14 @@ namespace isofield::rpc {
 
 class InfoService final : public v1::InfoService::Service {
  public:
-  InfoService(engine::Engine& engine, const Limits& limits, std::string version)
-      : engine_(engine), limits_(limits), version_(std::move(version)) {}
+  InfoService(const catalog::OperatorCatalog& operators, engine::Engine& engine, const Limits& limits,
+              std::string version)
+      : operators_(operators), engine_(engine), limits_(limits), version_(std::move(version)) {}
 
   grpc::Status GetInfo(grpc::ServerContext*, const v1::GetInfoRequest*, v1::GetInfoResponse*) override;
 
  private:
+  const catalog::OperatorCatalog& operators_;
   engine::Engine& engine_;
   const Limits& limits_;
   const std::string version_;

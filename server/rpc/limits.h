@@ -10,6 +10,7 @@ namespace isofield::rpc {
 struct Limits {
   blobtree::SceneLimits scene;
   std::uint64_t max_scenes = 1'000;
+  std::uint64_t max_operators = 10'000;  // custom ones
   std::uint64_t max_message_bytes = 64u << 20;
   std::uint64_t max_points_per_message = 1u << 20;
   std::uint64_t max_grid_points = 1ull << 32;

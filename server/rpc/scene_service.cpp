@@ -21,14 +21,15 @@ void fill_summary(const catalog::Entry& entry, const engine::ResidentScene& scen
 
 }  // namespace
 
-absl::Status SceneService::store(const std::string& name, const v1::Scene& scene, const catalog::Condition& condition,
-                                 v1::SceneSummary& summary) {
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease lease, engine_.make_resident(scene));
+absl::Status SceneService::store(const std::string& name, const v1::Scene& scene,
+                                 std::shared_ptr<const blobtree::OperatorTable> operators,
+                                 const catalog::Condition& condition, v1::SceneSummary& summary) {
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease lease, engine_.make_resident(scene, *operators));
   v1::Scene stored = scene;
   catalog::Catalog::Put put;
   {
     const std::lock_guard lock(residency_mutex_);
-    ISOFIELD_ASSIGN_OR_RETURN(put, catalog_.put(name, std::move(stored), condition));
+    ISOFIELD_ASSIGN_OR_RETURN(put, catalog_.put(name, std::move(stored), std::move(operators), condition));
     engine_.keep(put.entry.version, lease);
     if (put.replaced_version != 0) engine_.drop(put.replaced_version);
   }
@@ -37,7 +38,8 @@ absl::Status SceneService::store(const std::string& name, const v1::Scene& scene
 }
 
 absl::Status SceneService::summarise(const catalog::Entry& entry, v1::SceneSummary& summary) {
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease lease, engine_.acquire(entry.version, *entry.scene));
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease lease,
+                            engine_.acquire(entry.version, *entry.scene, *entry.operators));
   fill_summary(entry, *lease, summary);
   return absl::OkStatus();
 }
@@ -47,7 +49,10 @@ grpc::Status SceneService::PutScene(grpc::ServerContext*, const v1::PutSceneRequ
   catalog::Condition condition;
   if (request->expect_case() == v1::PutSceneRequest::kAbsent) condition.must_be_absent = request->absent();
   if (request->expect_case() == v1::PutSceneRequest::kVersion) condition.version = request->version();
-  return to_grpc(store(request->name(), request->scene(), condition, *response->mutable_summary()));
+  auto operators = operators_.table_for(request->scene());
+  if (!operators.ok()) return to_grpc(operators.status());
+  return to_grpc(
+      store(request->name(), request->scene(), *std::move(operators), condition, *response->mutable_summary()));
 }
 
 grpc::Status SceneService::GetScene(grpc::ServerContext*, const v1::GetSceneRequest* request,
@@ -88,7 +93,7 @@ grpc::Status SceneService::EditParameters(grpc::ServerContext*, const v1::EditPa
     // Against the version that was read, so that two editors at once lose nothing.
     catalog::Condition condition;
     condition.version = request->expected_version() != 0 ? request->expected_version() : entry.version;
-    return store(request->name(), scene, condition, *response->mutable_summary());
+    return store(request->name(), scene, entry.operators, condition, *response->mutable_summary());
   };
   absl::Status status = edit();
   // Without a version to insist on, an edit that lost a race applies to what won.

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "catalog/catalog.h"
+#include "catalog/operator_catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
 
@@ -11,7 +12,8 @@ namespace isofield::rpc {
 
 class SceneService final : public v1::SceneService::Service {
  public:
-  SceneService(catalog::Catalog& catalog, engine::Engine& engine) : catalog_(catalog), engine_(engine) {}
+  SceneService(catalog::Catalog& catalog, catalog::OperatorCatalog& operators, engine::Engine& engine)
+      : catalog_(catalog), operators_(operators), engine_(engine) {}
 
   grpc::Status PutScene(grpc::ServerContext*, const v1::PutSceneRequest*, v1::PutSceneResponse*) override;
   grpc::Status GetScene(grpc::ServerContext*, const v1::GetSceneRequest*, v1::GetSceneResponse*) override;
@@ -21,11 +23,13 @@ class SceneService final : public v1::SceneService::Service {
                               v1::EditParametersResponse*) override;
 
  private:
-  absl::Status store(const std::string& name, const v1::Scene& scene, const catalog::Condition& condition,
+  absl::Status store(const std::string& name, const v1::Scene& scene,
+                     std::shared_ptr<const blobtree::OperatorTable> operators, const catalog::Condition& condition,
                      v1::SceneSummary& summary);
   absl::Status summarise(const catalog::Entry& entry, v1::SceneSummary& summary);
 
   catalog::Catalog& catalog_;
+  catalog::OperatorCatalog& operators_;
   engine::Engine& engine_;
   // What is resident follows what is in the catalog, step by step: or of two puts at once the first could be kept after
   // the second has dropped it, and stay for good.

@@ -4,6 +4,7 @@
 #include <absl/status/statusor.h>
 
 #include "catalog/catalog.h"
+#include "catalog/operator_catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/scene.pb.h"
 
@@ -14,15 +15,24 @@ struct LeasedScene {
   std::uint64_t version = 0;  // 0: inline
 };
 
+struct FoundScene {
+  std::shared_ptr<const v1::Scene> scene;
+  std::shared_ptr<const blobtree::OperatorTable> operators;
+};
+
 // Thread-safe.
 class SceneSource {
  public:
-  SceneSource(catalog::Catalog& catalog, engine::Engine& engine) : catalog_(catalog), engine_(engine) {}
+  SceneSource(catalog::Catalog& catalog, catalog::OperatorCatalog& operators, engine::Engine& engine)
+      : catalog_(catalog), operators_(operators), engine_(engine) {}
 
   absl::StatusOr<LeasedScene> lease(const v1::SceneRef& ref) const;
+  // The scene itself, of an inline one a copy.
+  absl::StatusOr<FoundScene> find(const v1::SceneRef& ref) const;
 
  private:
   catalog::Catalog& catalog_;
+  catalog::OperatorCatalog& operators_;
   engine::Engine& engine_;
 };
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/status_macros.h"
+
 namespace isofield::rpc {
 namespace {
 
@@ -30,40 +32,49 @@ std::size_t first_not_finite(std::span<const T> numbers) {
 
 }  // namespace
 
-absl::StatusOr<PointArray> PointArray::read(const v1::Tensor& tensor, std::uint64_t max_points) {
+absl::StatusOr<RowArray> RowArray::read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
+                                        const Words& words) {
   if (tensor.dtype() != v1::Tensor::FLOAT32 && tensor.dtype() != v1::Tensor::FLOAT64) {
     const std::string& name = v1::Tensor::DType_Name(tensor.dtype());  // empty: a number that has none
-    return absl::InvalidArgumentError(absl::StrCat(
-        "points.dtype = ", name.empty() ? absl::StrCat(tensor.dtype()) : name, ": expected FLOAT32 or FLOAT64"));
+    return absl::InvalidArgumentError(absl::StrCat(words.tensor,
+                                                   ".dtype = ", name.empty() ? absl::StrCat(tensor.dtype()) : name,
+                                                   ": expected FLOAT32 or FLOAT64"));
   }
-  if (tensor.shape_size() != 2 || tensor.shape(1) != 3) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("points.shape = [", absl::StrJoin(tensor.shape(), ", "), "]: expected [n, 3]"));
+  if (tensor.shape_size() != 2 || tensor.shape(1) != columns) {
+    return absl::InvalidArgumentError(absl::StrCat(words.tensor, ".shape = [", absl::StrJoin(tensor.shape(), ", "),
+                                                   "]: expected [n, ", columns, "]"));
   }
   const std::uint64_t count = tensor.shape(0);
-  if (count > max_points) {
-    return absl::ResourceExhaustedError(absl::StrCat("points.shape = [", count, ", 3]: at most ", max_points,
-                                                     " points a message; send chunks by EvaluateStream"));
+  if (count > max_rows) {
+    return absl::ResourceExhaustedError(absl::StrCat(words.tensor, ".shape = [", count, ", ", columns, "]: at most ",
+                                                     max_rows, " ", words.rows, " a message; ", words.too_many));
   }
   const std::uint64_t size = tensor.dtype() == v1::Tensor::FLOAT32 ? 4 : 8;
-  if (tensor.data().size() != 3 * size * count) {
-    return absl::InvalidArgumentError(absl::StrCat("points.data holds ", tensor.data().size(), " bytes: expected ",
-                                                   3 * size * count, " for ", count, " points of 3 x ", size,
-                                                   " bytes"));
+  if (tensor.data().size() != columns * size * count) {
+    return absl::InvalidArgumentError(absl::StrCat(words.tensor, ".data holds ", tensor.data().size(),
+                                                   " bytes: expected ", columns * size * count, " for ", count, " ",
+                                                   words.rows, " of ", columns, " x ", size, " bytes"));
   }
-  PointArray array;
+  RowArray array;
   if (size == 4) {
-    array.xyz_ = {reinterpret_cast<const float*>(tensor.data().data()), 3 * count};
+    array.numbers_ = {reinterpret_cast<const float*>(tensor.data().data()), columns * count};
   } else {
-    array.converted_.resize(3 * count);
+    array.converted_.resize(columns * count);
     const auto* doubles = reinterpret_cast<const double*>(tensor.data().data());
-    for (std::size_t i = 0; i < 3 * count; ++i) array.converted_[i] = static_cast<float>(doubles[i]);
-    array.xyz_ = array.converted_;
+    for (std::size_t i = 0; i < columns * count; ++i) array.converted_[i] = static_cast<float>(doubles[i]);
+    array.numbers_ = array.converted_;
   }
-  const std::size_t bad = first_not_finite(array.xyz_);
-  if (bad < array.xyz_.size()) {
+  return array;
+}
+
+absl::StatusOr<PointArray> PointArray::read(const v1::Tensor& tensor, std::uint64_t max_points) {
+  PointArray array;
+  ISOFIELD_ASSIGN_OR_RETURN(
+      array.rows_, RowArray::read(tensor, 3, max_points, {"points", "points", "send chunks by EvaluateStream"}));
+  const std::size_t bad = first_not_finite(array.xyz());
+  if (bad < array.xyz().size()) {
     return absl::InvalidArgumentError(absl::StrCat("points[", bad / 3, "].", std::string(1, "xyz"[bad % 3]), " = ",
-                                                   array.xyz_[bad], ": expected a finite float32"));
+                                                   array.xyz()[bad], ": expected a finite float32"));
   }
   return array;
 }

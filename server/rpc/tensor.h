@@ -5,25 +5,45 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "isofield/v1/scene.pb.h"
 
 namespace isofield::rpc {
 
-// Points as float32, in place where the tensor holds that and converted where it holds float64.
+// Rows of numbers as float32, in place where the tensor holds that and converted where it holds float64.
+class RowArray {
+ public:
+  // What the tensor is, in errors.
+  struct Words {
+    const char* tensor;    // "points"
+    const char* rows;      // "points"
+    const char* too_many;  // what to do instead of sending more than are admitted
+  };
+  // INVALID_ARGUMENT: dtype, shape or size. RESOURCE_EXHAUSTED: more than max_rows. `tensor` must outlive the result.
+  static absl::StatusOr<RowArray> read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
+                                       const Words& words);
+
+  std::span<const float> numbers() const { return numbers_; }
+
+ private:
+  std::span<const float> numbers_;
+  std::vector<float> converted_;
+};
+
+// Points as float32.
 class PointArray {
  public:
   // INVALID_ARGUMENT: dtype, shape or size, or a coordinate that is not finite. RESOURCE_EXHAUSTED: more than
   // max_points. `tensor` must outlive the result.
   static absl::StatusOr<PointArray> read(const v1::Tensor& tensor, std::uint64_t max_points);
 
-  std::span<const float> xyz() const { return xyz_; }
-  std::size_t size() const { return xyz_.size() / 3; }
+  std::span<const float> xyz() const { return rows_.numbers(); }
+  std::size_t size() const { return xyz().size() / 3; }
 
  private:
-  std::span<const float> xyz_;
-  std::vector<float> converted_;
+  RowArray rows_;
 };
 
 // Makes a FLOAT32 tensor of this shape and returns its content, to be written by the caller.

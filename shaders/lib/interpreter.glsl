@@ -56,30 +56,15 @@ Field evaluate(vec3 point, uint begin, uint count) {
         a = select_field(a, complement(a, mode), (mode & 3u) != FORM_UNION);
         b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
       }
-      if (is_operator(op, OPERATOR_SUM)) r = sum(a, b);
-      if (is_operator(op, OPERATOR_MAX)) r = select_field(a, b, b.f > a.f);
-      if (is_operator(op, OPERATOR_MIN)) r = select_field(a, b, b.f < a.f);
-      if (is_operator(op, OPERATOR_SUBTRACT)) r = subtract(a, b);
-      if (is_operator(op, OPERATOR_SUBTRACT_FROM)) r = subtract(b, a);
-      if (is_operator(op, OPERATOR_RICCI)) r = ricci(a, b, operations[i.z].xy);
-      if (is_operator(op, OPERATOR_GRADIENT)) r = blend_by_gradient(a, b, operations[i.z], SMOOTH_SILHOUETTE);
-      if (is_operator(op, OPERATOR_GRADIENT_TABLE)) {
+      if (is_operator(op, OPERATOR_GRADIENT)) {
+        r = blend_by_gradient(a, b, operations[i.z], SMOOTH_SILHOUETTE);
+      } else if (is_operator(op, OPERATOR_GRADIENT_TABLE)) {
         r = blend_by_gradient(a, b, operations[i.z], silhouette_half(floatBitsToUint(operations[i.z].y), a.f, b.f));
+      } else if (op != OPERATOR_PUSH) {
+        Angle angle = no_angle();
+        if (may_follow_angle()) angle = angle_between(a, b);
+        r = unite(a, b, op, i.z, angle);
       }
-      if (is_operator(op, OPERATOR_CLEAN)) r = join_positive(a, b, clean_union(dual_of(a), dual_of(b)));
-      if (is_operator(op, OPERATOR_BARTHE)) {
-        vec4 o = operations[i.z];
-        r = join_positive(a, b, barthe_blend(dual_of(a), dual_of(b), o.x, o.y));
-      }
-      if (is_operator(op, OPERATOR_BERNHARDT)) {
-        vec4 o = operations[i.z];
-        r = join_positive(a, b, bernhardt_blend(dual_of(a), dual_of(b), o.x, o.y, o.z));
-      }
-      if (is_operator(op, OPERATOR_PASKO)) r = join_binary(a, b, pasko_blend(dual_of(a), dual_of(b), operations[i.z].xyz));
-      if (is_operator(op, OPERATOR_FUNCTIONAL)) {
-        r = join_binary(a, b, functional_blend(dual_of(a), dual_of(b), operations[i.z].xyz));
-      }
-      if (is_operator(op, OPERATOR_BT2)) r = blend_bt2(a, b, i.z);
       if (has_modes()) r = formed(r, first, second, mode);
       if (is_operator(op, OPERATOR_LINEAR)) r = linear(acc, operations[i.z].x, operations[i.z].y);
       if (is_operator(op, OPERATOR_SOFTEN)) r = softened(acc, operations[i.z].x);
@@ -99,8 +84,10 @@ Field evaluate(vec3 point, uint begin, uint count) {
             }
           }
         }
-        if (is_btk) r = blend_btk(x, i.y, i.z);
-        else r = blend_superelliptic(x, i.y, i.z);
+        Angle angle = no_angle();
+        if (may_follow_angle()) angle = angle_between(x[0], x[1]);
+        if (is_btk) r = blend_btk(x, i.y, i.z, angle);
+        else r = blend_superelliptic(x, i.y, i.z, angle);
         if (has_modes()) r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
       }
     }

@@ -99,8 +99,13 @@ Field softened(Field a, float slope) {
   return b;
 }
 
-// What a form makes of its operands before the union of them, and of that after: modes of opcodes.glsl.
-Field complement(Field a, uint mode) { return linear(a, -1.0, (mode & MODE_SIGNED) != 0u ? 0.0 : 1.0); }
+// What a form makes of its operands before the union of them, and of that after: modes of opcodes.glsl. A positive field
+// above 1 is as good as 1.
+Field complement(Field a, uint mode) {
+  bool is_signed = (mode & MODE_SIGNED) != 0u;
+  Field c = linear(a, -1.0, is_signed ? 0.0 : 1.0);
+  return select_field(c, zero_field(), !is_signed && c.f <= 0.0);
+}
 
 Field formed(Field r, Field first, Field second, uint mode) {
   uint form = mode & 3u;
@@ -139,13 +144,16 @@ Angle angle_between(Field a, Field b) {
                select_dual(ratio, dual(is_null ? 1.0 : clamp(value_of(ratio), 1.0 / MOST_RATIO, MOST_RATIO)), is_null || is_extreme));
 }
 
-// Without an angle omega is negative.
-Field blend_bt2(Field a, Field b, uint record) {
+// Whether a kernel's operators may follow an angle; one does whose omega is not negative.
+bool may_follow_angle() { return (OPERATOR_SET & BY_ANGLE) != 0u; }
+Angle no_angle() { return Angle(dual(0.0), dual(1.0)); }
+
+// `angle` counts where the operator follows it.
+Field blend_bt2(Field a, Field b, uint record, Angle angle) {
   vec4 head = operations[record], w1 = operations[record + 1u], w2 = operations[record + 2u];
   Reach2 reach = Reach2(dual(head.x), dual(head.y), dual(w1.z), dual(w2.z));
   vec2 inverse_weights = vec2(w1.x, w2.x);
-  if ((OPERATOR_SET & BY_ANGLE) != 0u && head.w >= 0.0) {
-    Angle angle = angle_between(a, b);
+  if (may_follow_angle() && head.w >= 0.0) {
     eliminate_bulge(reach, angle.cosine, angle.ratio, head.w);
     // The conic narrows with the ranges.
     Dual narrowed = times(reach.r1, reach.r2) * (head.z / (head.x * head.y));
@@ -172,7 +180,7 @@ Field join_operands(Field x[MAX_OPERANDS], Dual g, Dual partials[MAX_OPERANDS]) 
 }
 
 // [H] eq. 5 of the operands in `mask`; those that are absent are zero fields.
-Field blend_btk(Field x[MAX_OPERANDS], uint mask, uint record) {
+Field blend_btk(Field x[MAX_OPERANDS], uint mask, uint record, Angle angle) {
   vec4 head = operations[record];
   Term terms[MAX_OPERANDS];
   for (uint i = 0u; i < ARITY; ++i) {
@@ -180,8 +188,7 @@ Field blend_btk(Field x[MAX_OPERANDS], uint mask, uint record) {
     vec4 t = operations[record + 1u + (is_there ? i : 0u)];
     terms[i] = Term(dual_of(x[i]), dual(t.x), dual(is_there ? t.w : 0.0), t.z);
   }
-  if ((OPERATOR_SET & BY_ANGLE) != 0u && head.y >= 0.0) {
-    Angle angle = angle_between(x[0], x[1]);
+  if (may_follow_angle() && head.y >= 0.0) {
     Reach2 reach = Reach2(terms[0].range, terms[1].range, reciprocal(terms[0].inverse_weight),
                           reciprocal(terms[1].inverse_weight));
     eliminate_bulge(reach, angle.cosine, angle.ratio, head.y);
@@ -194,18 +201,16 @@ Field blend_btk(Field x[MAX_OPERANDS], uint mask, uint record) {
 }
 
 // [G] eq. 4.
-Field blend_superelliptic(Field x[MAX_OPERANDS], uint mask, uint record) {
+Field blend_superelliptic(Field x[MAX_OPERANDS], uint mask, uint record, Angle angle) {
   vec4 head = operations[record];
-  bool by_angle = (OPERATOR_SET & BY_ANGLE) != 0u && head.y >= 0.0;
-  Dual cosine = dual(0.0);
-  if (by_angle) cosine = angle_between(x[0], x[1]).cosine;
+  bool by_angle = may_follow_angle() && head.y >= 0.0;
   Dual g = dual(1.0);
   Dual partials[MAX_OPERANDS];
   for (uint i = 0u; i < ARITY; ++i) {
     bool is_there = (mask >> i & 1u) != 0u;
     float range = operations[record + 1u + (is_there ? i : 0u)].w;
     Dual r = dual(range);
-    if (by_angle) r = angular_range(range, cosine, head.y);
+    if (by_angle) r = angular_range(range, angle.cosine, head.y);
     Bracket b = superelliptic_bracket(dual_of(x[i]), r, head.x);
     g = g - select_dual(dual(0.0), b.value, is_there);
     partials[i] = select_dual(dual(0.0), b.fall, is_there);
@@ -301,6 +306,34 @@ Field blend_by_gradient(Field a, Field b, vec4 operation, uint silhouette) {
   // A field of 0 bypasses the operator.
   r = select_field(r, a, b.f <= 0.0);
   return select_field(r, b, a.f <= 0.0);
+}
+
+// The union of two fields by an operator that no opening steers, `op` of `record`. `angle` as for blend_bt2.
+Field unite(Field a, Field b, uint op, uint record, Angle angle) {
+  Field r = b;
+  if (is_operator(op, OPERATOR_SUM)) r = sum(a, b);
+  if (is_operator(op, OPERATOR_MAX)) r = select_field(a, b, b.f > a.f);
+  if (is_operator(op, OPERATOR_MIN)) r = select_field(a, b, b.f < a.f);
+  if (is_operator(op, OPERATOR_SUBTRACT)) r = subtract(a, b);
+  if (is_operator(op, OPERATOR_SUBTRACT_FROM)) r = subtract(b, a);
+  if (is_operator(op, OPERATOR_RICCI)) r = ricci(a, b, operations[record].xy);
+  if (is_operator(op, OPERATOR_CLEAN)) r = join_positive(a, b, clean_union(dual_of(a), dual_of(b)));
+  if (is_operator(op, OPERATOR_BARTHE)) {
+    vec4 o = operations[record];
+    r = join_positive(a, b, barthe_blend(dual_of(a), dual_of(b), o.x, o.y));
+  }
+  if (is_operator(op, OPERATOR_BERNHARDT)) {
+    vec4 o = operations[record];
+    r = join_positive(a, b, bernhardt_blend(dual_of(a), dual_of(b), o.x, o.y, o.z));
+  }
+  if (is_operator(op, OPERATOR_PASKO)) {
+    r = join_binary(a, b, pasko_blend(dual_of(a), dual_of(b), operations[record].xyz));
+  }
+  if (is_operator(op, OPERATOR_FUNCTIONAL)) {
+    r = join_binary(a, b, functional_blend(dual_of(a), dual_of(b), operations[record].xyz));
+  }
+  if (is_operator(op, OPERATOR_BT2)) r = blend_bt2(a, b, record, angle);
+  return r;
 }
 
 #endif

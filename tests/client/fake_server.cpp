@@ -227,6 +227,97 @@ class FakeServer::Infos : public v1::InfoService::Service {
   FakeServer& owner_;
 };
 
+class FakeServer::Operators : public v1::OperatorService::Service {
+ public:
+  explicit Operators(FakeServer& owner) : owner_(owner) {}
+
+  grpc::Status PutOperator(grpc::ServerContext*, const v1::PutOperatorRequest* request,
+                           v1::PutOperatorResponse* response) override {
+    ++owner_.writes;
+    if (request->operator_().kind_case() == v1::Operator::KIND_NOT_SET) {
+      return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "kind = (absent)");
+    }
+    const std::lock_guard lock(owner_.mutex_);
+    auto& stored = owner_.operator_catalog_[request->name()];
+    *stored.mutable_operator_() = request->operator_();
+    stored.mutable_summary()->set_name(request->name());
+    stored.mutable_summary()->set_version(++owner_.version_);
+    *response->mutable_summary() = stored.summary();
+    return grpc::Status::OK;
+  }
+
+  grpc::Status GetOperator(grpc::ServerContext*, const v1::GetOperatorRequest* request,
+                           v1::GetOperatorResponse* response) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    const std::lock_guard lock(owner_.mutex_);
+    const auto found = owner_.operator_catalog_.find(request->name());
+    if (found == owner_.operator_catalog_.end()) return no_operator(request->name());
+    *response = found->second;
+    return grpc::Status::OK;
+  }
+
+  grpc::Status ListOperators(grpc::ServerContext*, const v1::ListOperatorsRequest*,
+                             v1::ListOperatorsResponse* response) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    const std::lock_guard lock(owner_.mutex_);
+    response->add_operators()->set_name("gradient");
+    for (const auto& [name, stored] : owner_.operator_catalog_) *response->add_operators() = stored.summary();
+    return grpc::Status::OK;
+  }
+
+  grpc::Status DeleteOperator(grpc::ServerContext*, const v1::DeleteOperatorRequest* request,
+                              v1::DeleteOperatorResponse*) override {
+    const std::lock_guard lock(owner_.mutex_);
+    return owner_.operator_catalog_.erase(request->name()) ? grpc::Status::OK : no_operator(request->name());
+  }
+
+  grpc::Status EvaluateOperator(grpc::ServerContext*, const v1::EvaluateOperatorRequest* request,
+                                v1::EvaluateOperatorResponse* response) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    const std::size_t columns = request->columns_size(), rows = request->arguments().shape(0);
+    owner_.largest_chunk = std::max<std::size_t>(owner_.largest_chunk, rows);
+    std::vector<float> in(rows * columns), out;
+    if (!in.empty()) std::memcpy(in.data(), request->arguments().data().data(), in.size() * sizeof(float));
+    for (std::size_t row = 0; row < rows; ++row) {
+      float g = 0;
+      for (std::size_t i = 0; i < columns; ++i) {
+        if (in[row * columns + i] < 0 && request->columns(static_cast<int>(i))[0] == 'f') {
+          return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "arguments[" + std::to_string(row) + "] < 0");
+        }
+        g += in[row * columns + i];
+      }
+      out.push_back(request->has_opening() ? g / 4 : g);
+      out.insert(out.end(), columns, request->has_opening() ? 0.25f : 1.0f);
+    }
+    response->add_columns(request->has_opening() ? "theta" : "g");
+    for (const std::string& name : request->columns()) {
+      response->add_columns(request->has_opening() ? "dtheta_dalpha" : "dg_d" + name);
+    }
+    fill(out.data(), out.size() * sizeof(float), v1::Tensor::FLOAT32, {rows, columns + 1},
+         *response->mutable_results());
+    if (owner_.short_answer) response->mutable_results()->mutable_data()->pop_back();
+    return grpc::Status::OK;
+  }
+
+  grpc::Status PickOpening(grpc::ServerContext*, const v1::PickOpeningRequest* request,
+                           v1::PickOpeningResponse* response) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    if (auto status = owner_.find(request->scene()); !status.ok()) return status;
+    if (request->node() != "top") return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "no such node");
+    response->set_theta(request->point(0));
+    response->set_alpha(request->point(1));
+    response->set_f1(request->point(2));
+    return grpc::Status::OK;
+  }
+
+ private:
+  static grpc::Status no_operator(const std::string& name) {
+    return grpc::Status(grpc::StatusCode::NOT_FOUND, "no operator \"" + name + "\"");
+  }
+
+  FakeServer& owner_;
+};
+
 grpc::Status FakeServer::admit_read() {
   ++reads;
   if (unavailable_for > 0) {
@@ -246,13 +337,15 @@ FakeServer::FakeServer(const std::string& address)
     : scenes_(std::make_unique<Scenes>(*this)),
       fields_(std::make_unique<Fields>(*this)),
       meshes_(std::make_unique<Meshes>(*this)),
-      infos_(std::make_unique<Infos>(*this)) {
+      infos_(std::make_unique<Infos>(*this)),
+      operators_(std::make_unique<Operators>(*this)) {
   grpc::ServerBuilder builder;
   builder.AddListeningPort(address, grpc::InsecureServerCredentials());
   builder.RegisterService(scenes_.get());
   builder.RegisterService(fields_.get());
   builder.RegisterService(meshes_.get());
   builder.RegisterService(infos_.get());
+  builder.RegisterService(operators_.get());
   builder.SetMaxReceiveMessageSize(64 << 20);
   server_ = builder.BuildAndStart();
 }

@@ -11,12 +11,14 @@
 #include "isofield/v1/field_service.grpc.pb.h"
 #include "isofield/v1/info_service.grpc.pb.h"
 #include "isofield/v1/mesh_service.grpc.pb.h"
+#include "isofield/v1/operator_service.grpc.pb.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
 
 namespace isofield {
 
 // The contract, answered by one field: f(p) = x + 2y + 3z with gradient (1, 2, 3), whatever the scene. Its mesh is a
-// torus. A scene reference by name must be in the catalog.
+// torus. A scene reference by name must be in the catalog. Every operator is the sum of its columns, every opening
+// theta = alpha / 4.
 class FakeServer {
  public:
   // "unix:PATH" or "HOST:PORT".
@@ -40,17 +42,20 @@ class FakeServer {
   class Fields;
   class Meshes;
   class Infos;
+  class Operators;
 
   grpc::Status admit_read();
   grpc::Status find(const v1::SceneRef& reference);
 
   std::mutex mutex_;
   std::map<std::string, v1::GetSceneResponse> catalog_;
+  std::map<std::string, v1::GetOperatorResponse> operator_catalog_;
   std::uint64_t version_ = 0;
   std::unique_ptr<v1::SceneService::Service> scenes_;
   std::unique_ptr<v1::FieldService::Service> fields_;
   std::unique_ptr<v1::MeshService::Service> meshes_;
   std::unique_ptr<v1::InfoService::Service> infos_;
+  std::unique_ptr<v1::OperatorService::Service> operators_;
   std::unique_ptr<grpc::Server> server_;
 };
 

@@ -6,10 +6,9 @@
 #include <iostream>
 
 #include "blobtree/parameter_layout.h"
-#include "engine/session.h"
+#include "engine/operator_evaluator.h"
 #include "gpu/gpu_environment.h"
 #include "operators/gradient_blend.h"
-#include "operators/profile_table.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 #include "support/shared_files.h"
@@ -18,35 +17,42 @@ namespace isofield::gpu_test {
 namespace {
 
 using Float4 = std::array<float, 4>;
+using engine::Steering;
 using operators::Silhouette;
 
-enum class Probe : std::uint32_t { kTableBlend = 0, kSmoothBlend = 1, kOpening = 2 };
+constexpr float kQuarter = 0.7853981f;  // pi / 4, from below
 
-// Runs shaders/operator_probe.comp.
-std::vector<Float4> probe(const std::vector<Float4>& arguments, const operators::ProfileTable& table, Probe kind) {
-  std::vector<Float4> results(arguments.size());
-  auto session = engine::Session::begin(device());
-  EXPECT_TRUE(session.ok());
-  const auto table_buffer = session->upload(std::span(table));
-  const auto argument_buffer = session->upload(std::span(arguments));
-  const auto result_buffer = session->scratch(sizeof(Float4) * arguments.size());
-  const auto kernel = kernels().get(shaders::kOperatorProbe);
-  EXPECT_TRUE(kernel.ok()) << kernel.status();
-  const std::array<std::uint32_t, 2> constants{static_cast<std::uint32_t>(arguments.size()),
-                                               static_cast<std::uint32_t>(kind)};
-  EXPECT_TRUE(session->commands()
-                  .dispatch(**kernel, {{2, &*table_buffer}, {4, &*argument_buffer}, {5, &*result_buffer}}, constants,
-                            static_cast<std::uint32_t>((arguments.size() + 63) / 64))
-                  .ok());
-  EXPECT_TRUE(session->download(*result_buffer, std::span(results)).ok());
-  EXPECT_TRUE(session->run().ok());
+engine::OperatorEvaluator& evaluator() {
+  static engine::OperatorEvaluator evaluator(device(), kernels());
+  return evaluator;
+}
+
+// Rows of g and its partials at rows of arguments.
+std::vector<float> evaluate(const operators::Operator& op, std::size_t operands, Steering steering,
+                            const std::vector<float>& arguments) {
+  const std::size_t columns = operands + (steering != Steering::kNone) + op.by_angle;
+  std::vector<float> results(arguments.size() / columns * (1 + operands + (steering != Steering::kNone)));
+  const absl::Status status =
+      evaluator().evaluate(std::make_shared<const operators::Operator>(op), operands, steering, arguments, results);
+  EXPECT_TRUE(status.ok()) << status;
   return results;
 }
 
-// By the polynomial where the silhouette is smooth, else by its table.
+operators::Operator gradient(const Silhouette& silhouette) {
+  operators::Operator op;
+  op.kind = operators::Kind::kGradient;
+  op.silhouette = silhouette;
+  return op;
+}
+
+// g and its derivatives by f1, f2 and theta at (f1, f2, theta).
 std::vector<Float4> probe_blend(const std::vector<Float4>& arguments, const Silhouette& silhouette) {
-  return probe(arguments, operators::silhouette_table(silhouette),
-               silhouette.kind == Silhouette::Kind::kSmooth ? Probe::kSmoothBlend : Probe::kTableBlend);
+  std::vector<float> rows;
+  for (const Float4& a : arguments) rows.insert(rows.end(), {a[0], a[1], a[2]});
+  const std::vector<float> out = evaluate(gradient(silhouette), 2, Steering::kTheta, rows);
+  std::vector<Float4> results(arguments.size());
+  for (std::size_t i = 0; i < results.size(); ++i) std::copy_n(&out[4 * i], 4, results[i].begin());
+  return results;
 }
 
 void expect_golden_blend(const std::string& file, const Silhouette& silhouette, double tolerance) {
@@ -55,7 +61,7 @@ void expect_golden_blend(const std::string& file, const Silhouette& silhouette, 
   ASSERT_TRUE(table.ok()) << table.status();
   std::vector<Float4> arguments;
   for (const auto& row : table->rows) {
-    arguments.push_back({static_cast<float>(row[0]), static_cast<float>(row[1]), static_cast<float>(std::tan(row[2]))});
+    arguments.push_back({static_cast<float>(row[0]), static_cast<float>(row[1]), static_cast<float>(row[2])});
   }
   const std::vector<Float4> results = probe_blend(arguments, silhouette);
   double worst = 0;
@@ -83,12 +89,13 @@ TEST(OperatorOnDevice, ReproducesGoldenOpenings) {
     ISOFIELD_NEEDS_SHARED(file);
     const auto table = test_support::read_csv(test_support::shared_file(file));
     ASSERT_TRUE(table.ok()) << table.status();
-    std::vector<Float4> arguments;
-    for (const auto& row : table->rows) arguments.push_back({static_cast<float>(row[0])});
-    const std::vector<Float4> results = probe(arguments, operators::opening_table(opening), Probe::kOpening);
+    std::vector<float> alphas;
+    for (const auto& row : table->rows) alphas.push_back(static_cast<float>(row[0]));
+    std::vector<float> results(2 * alphas.size());
+    ASSERT_TRUE(evaluator().evaluate_opening(opening, alphas, results).ok());
     double worst = 0;
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      worst = std::max(worst, std::abs(std::atan(double{results[i][0]}) - table->rows[i][1]));
+    for (std::size_t i = 0; i < alphas.size(); ++i) {
+      worst = std::max(worst, std::abs(results[2 * i] - table->rows[i][1]));
     }
     std::cout << file << ": max error " << worst << "\n";
     EXPECT_LE(worst, 1e-6) << file;
@@ -118,14 +125,14 @@ TEST(OperatorOnDevice, AgreesWithExactArithmeticAtTheEndsOfItsDomain) {
   std::vector<Float4> arguments;
   for (const float f1 : fields) {
     for (const float f2 : fields) {
-      for (const float t : {0.0f, 1.0f}) arguments.push_back({f1, f2, t});
+      for (const float theta : {0.0f, kQuarter}) arguments.push_back({f1, f2, theta});
     }
   }
   for (const Silhouette& silhouette : {Silhouette{}, Silhouette{Silhouette::Kind::kBulge, 0.8}}) {
     const std::vector<Float4> results = probe_blend(arguments, silhouette);
     for (std::size_t i = 0; i < results.size(); ++i) {
       const Float4& a = arguments[i];
-      const operators::Blend exact = operators::gradient_blend(a[0], a[1], std::atan(double{a[2]}), silhouette);
+      const operators::Blend exact = operators::gradient_blend(a[0], a[1], a[2], silhouette);
       for (const float r : results[i]) EXPECT_TRUE(std::isfinite(r)) << a[0] << " " << a[1] << " " << a[2];
       EXPECT_NEAR(results[i][0], exact.g, 2e-5 * std::max(1.0, exact.g)) << a[0] << " " << a[1] << " " << a[2];
     }
@@ -137,15 +144,15 @@ TEST(OperatorOnDevice, LeavesAFieldAloneWhereTheOtherIsZero) {
   std::vector<Float4> arguments;
   for (int i = 0; i < 20'000; ++i) {
     const auto f = static_cast<float>(random.number(0, i % 3 == 0 ? 3 : 1));
-    const auto t = static_cast<float>(i % 7 == 0 ? 0 : i % 11 == 0 ? 1 : random.number(0, 1));
+    const auto t = i % 7 == 0 ? 0 : i % 11 == 0 ? kQuarter : static_cast<float>(random.number(0, kQuarter));
     arguments.push_back(i % 2 ? Float4{f, 0, t} : Float4{0, f, t});
   }
   for (const Silhouette& s : {Silhouette{}, Silhouette{Silhouette::Kind::kBulge, 0.8}}) {
     const std::vector<Float4> results = probe_blend(arguments, s);
     for (std::size_t i = 0; i < results.size(); ++i) {
       const float f = std::max(arguments[i][0], arguments[i][1]);
-      ASSERT_EQ(results[i][0], f) << "g(" << arguments[i][0] << ", " << arguments[i][1] << ", t = " << arguments[i][2]
-                                  << ")";
+      ASSERT_EQ(results[i][0], f) << "g(" << arguments[i][0] << ", " << arguments[i][1]
+                                  << ", theta = " << arguments[i][2] << ")";
     }
   }
 }
@@ -156,7 +163,7 @@ TEST(OperatorOnDevice, AgreesWithExactArithmeticOnRandomInput) {
   for (int i = 0; i < 20'000; ++i) {
     const double top = i % 4 == 0 ? 2 : 1;
     arguments.push_back({static_cast<float>(random.number(0, top)), static_cast<float>(random.number(0, top)),
-                         static_cast<float>(random.number(0, 1))});
+                         static_cast<float>(random.number(0, kQuarter))});
   }
   const std::pair<Silhouette, double> silhouettes[] = {{{}, 2e-6}, {{Silhouette::Kind::kBulge, 0.8}, 2e-5}};
   for (const auto& [silhouette, tolerance] : silhouettes) {
@@ -164,13 +171,12 @@ TEST(OperatorOnDevice, AgreesWithExactArithmeticOnRandomInput) {
     double worst = 0, worst_partial = 0;
     for (std::size_t i = 0; i < results.size(); ++i) {
       const Float4& a = arguments[i];
-      const operators::Blend exact = operators::gradient_blend(a[0], a[1], std::atan(double{a[2]}), silhouette);
+      const operators::Blend exact = operators::gradient_blend(a[0], a[1], a[2], silhouette);
       worst = std::max(worst, std::abs(results[i][0] - exact.g));
       // A bulge folds at f1 = f2: its partials jump.
       if (silhouette.kind == Silhouette::Kind::kBulge && std::abs(a[0] - a[1]) < 0.02) continue;
-      const double gt = exact.gt / (1 + double{a[2]} * a[2]);
       worst_partial = std::max({worst_partial, std::abs(results[i][1] - exact.g1), std::abs(results[i][2] - exact.g2),
-                                std::abs(results[i][3] - gt)});
+                                std::abs(results[i][3] - exact.gt)});
     }
     std::cout << "random arguments: max error of g " << worst << ", of its partials " << worst_partial << "\n";
     EXPECT_LE(worst, tolerance);

@@ -47,6 +47,7 @@ Peer::Peer(const std::string& address) {
   fields_ = v1::FieldService::NewStub(channel_);
   meshes_ = v1::MeshService::NewStub(channel_);
   infos_ = v1::InfoService::NewStub(channel_);
+  operators_ = v1::OperatorService::NewStub(channel_);
 }
 
 grpc::Status Peer::put(const std::string& name, const v1::Scene& scene, v1::SceneSummary* summary) {

@@ -15,6 +15,7 @@
 #include "isofield/v1/field_service.grpc.pb.h"
 #include "isofield/v1/info_service.grpc.pb.h"
 #include "isofield/v1/mesh_service.grpc.pb.h"
+#include "isofield/v1/operator_service.grpc.pb.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
 
 namespace isofield::integration_test {
@@ -53,6 +54,7 @@ class Peer {
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
   v1::FieldService::Stub& fields() { return *fields_; }
   v1::MeshService::Stub& meshes() { return *meshes_; }
+  v1::OperatorService::Stub& operators() { return *operators_; }
 
  private:
   std::shared_ptr<grpc::Channel> channel_;
@@ -60,6 +62,7 @@ class Peer {
   std::unique_ptr<v1::FieldService::Stub> fields_;
   std::unique_ptr<v1::MeshService::Stub> meshes_;
   std::unique_ptr<v1::InfoService::Stub> infos_;
+  std::unique_ptr<v1::OperatorService::Stub> operators_;
 };
 
 v1::SceneRef named(const std::string& name);

@@ -19,7 +19,7 @@ TEST(Services, ReflectionListsThem) {
       raw_call(peer.channel(), "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", kListServices);
   EXPECT_TRUE(ok(answer.status));
   for (const char* name : {"isofield.v1.SceneService", "isofield.v1.FieldService", "isofield.v1.MeshService",
-                           "isofield.v1.InfoService", "grpc.health.v1.Health"}) {
+                           "isofield.v1.InfoService", "isofield.v1.OperatorService", "grpc.health.v1.Health"}) {
     EXPECT_NE(answer.message.find(name), std::string::npos) << name;
   }
 }
@@ -35,8 +35,10 @@ TEST(Services, UnknownMethodsAndUnreadableMessagesDoNoHarm) {
   const Peer peer(shared_daemon().address());
   EXPECT_EQ(raw_call(peer.channel(), "/isofield.v1.SceneService/Nothing", "").status.error_code(),
             grpc::StatusCode::UNIMPLEMENTED);
-  for (const char* method : {"SceneService/PutScene", "FieldService/Evaluate", "FieldService/EvaluateStream",
-                             "FieldService/EvaluateGrid", "MeshService/Mesh", "InfoService/GetInfo"}) {
+  for (const char* method :
+       {"SceneService/PutScene", "FieldService/Evaluate", "FieldService/EvaluateStream", "FieldService/EvaluateGrid",
+        "MeshService/Mesh", "InfoService/GetInfo", "OperatorService/PutOperator", "OperatorService/EvaluateOperator",
+        "OperatorService/PickOpening"}) {
     // A message that ends within a field, and one with a field of a wrong type.
     for (const std::string& message : {std::string("\x0a\xff\xff\xff\x7f", 5), std::string(64, '\xff')}) {
       EXPECT_FALSE(raw_call(peer.channel(), std::string("/isofield.v1.") + method, message).status.ok()) << method;
@@ -59,6 +61,7 @@ TEST(Services, InfoStatesDeviceAndLimits) {
   EXPECT_GE(info.limits().max_primitives(), 100'000u);
   EXPECT_GE(info.limits().max_stack_depth(), 8u);
   EXPECT_GE(info.limits().max_scenes(), 1u);
+  EXPECT_EQ(info.limits().max_operators(), 10'000u);
   EXPECT_GE(info.limits().max_message_bytes(), 4u << 20);
   EXPECT_GE(info.limits().max_points_per_message(), 65'536u);
   EXPECT_GE(info.limits().max_grid_points(), 1u << 24);
@@ -68,7 +71,8 @@ TEST(Services, InfoStatesDeviceAndLimits) {
 
 TEST(Services, LimitsAreThoseOfTheFlags) {
   Daemon daemon({"--max-nodes", "11", "--max-primitives", "12", "--max-scenes", "13", "--max-message-bytes", "70000",
-                 "--max-points-per-message", "14", "--max-grid-points", "15", "--max-mesh-cells", "6400"});
+                 "--max-points-per-message", "14", "--max-grid-points", "15", "--max-operators", "16",
+                 "--max-mesh-cells", "6400"});
   Peer peer(daemon.address());
   const v1::Limits limits = peer.info().limits();
   EXPECT_EQ(limits.max_nodes(), 11u);
@@ -78,6 +82,7 @@ TEST(Services, LimitsAreThoseOfTheFlags) {
   EXPECT_EQ(limits.max_points_per_message(), 14u);
   EXPECT_EQ(limits.max_grid_points(), 15u);
   EXPECT_EQ(limits.max_mesh_cells(), 6400u);
+  EXPECT_EQ(limits.max_operators(), 16u);
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include <absl/strings/ascii.h>
 #include <absl/strings/numbers.h>
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
@@ -29,15 +28,6 @@ void print(const v1::SceneSummary& summary, bool json) {
   } else {
     std::printf("%s\n", describe(summary).c_str());
   }
-}
-
-// A file's stem in the letters that a scene's name may have.
-std::string name_for(const std::string& path) {
-  std::string name = stem(path);
-  for (char& c : name) {
-    if (!absl::ascii_isalnum(c) && c != '_' && c != '-' && c != '.') c = '_';
-  }
-  return name.empty() ? "scene" : name.substr(0, 128);
 }
 
 absl::Status put(const Context& context, const std::string& file, const std::string& name, const ImportFlags& flags) {

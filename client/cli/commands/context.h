@@ -31,6 +31,9 @@ void add_import_command(CLI::App& app, Context& context);
 void add_eval_command(CLI::App& app, Context& context);
 void add_mesh_command(CLI::App& app, Context& context);
 void add_render_command(CLI::App& app, Context& context);
+void add_operator_commands(CLI::App& app, Context& context);  // operator ls, show, put, rm, eval, plot, pick
+void add_operator_eval_command(CLI::App& app, Context& context);
+void add_operator_plot_command(CLI::App& app, Context& context);
 void add_info_command(CLI::App& app, Context& context);
 
 }  // namespace isofield

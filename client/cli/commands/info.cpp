@@ -26,8 +26,10 @@ absl::Status info(const Context& context) {
                device.vulkan_version(), device.driver(), device.subgroup_size());
   absl::PrintF("resident %u scenes, %.1f MiB of scenes, %.1f MiB in all\n", info->resident_scenes(),
                static_cast<double>(info->scene_bytes()) / kMiB, static_cast<double>(info->device_bytes()) / kMiB);
-  absl::PrintF("limits   %u scenes; %u nodes and %u primitives a scene; stack depth %u\n", limits.max_scenes(),
-               limits.max_nodes(), limits.max_primitives(), limits.max_stack_depth());
+  absl::PrintF(
+      "limits   %u scenes; %u custom operators (%u there); %u nodes and %u primitives a scene; stack depth %u\n",
+      limits.max_scenes(), limits.max_operators(), info->operators(), limits.max_nodes(), limits.max_primitives(),
+      limits.max_stack_depth());
   absl::PrintF("         %u bytes and %u points a message; %u points a grid; %u cells a mesh\n",
                limits.max_message_bytes(), limits.max_points_per_message(), limits.max_grid_points(),
                limits.max_mesh_cells());

@@ -1,5 +1,6 @@
 #include "commands/scene_argument.h"
 
+#include <absl/strings/ascii.h>
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 
@@ -41,6 +42,14 @@ absl::StatusOr<v1::SceneRef> scene_argument(const std::string& argument, const I
 
 std::string stem(const std::string& path) {
   return std::filesystem::path(path).stem().string();
+}
+
+std::string name_for(const std::string& path) {
+  std::string name = stem(path);
+  for (char& c : name) {
+    if (!absl::ascii_isalnum(c) && c != '_' && c != '-' && c != '.') c = '_';
+  }
+  return name.empty() ? "scene" : name.substr(0, 128);
 }
 
 }  // namespace isofield

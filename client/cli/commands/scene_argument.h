@@ -24,5 +24,7 @@ absl::StatusOr<v1::SceneRef> scene_argument(const std::string& argument, const I
 
 // A file's name without its directories and extension.
 std::string stem(const std::string& path);
+// The same in the letters that a name on the server may have.
+std::string name_for(const std::string& path);
 
 }  // namespace isofield

@@ -1,18 +1,13 @@
-#include <absl/strings/str_cat.h>
 #include <absl/strings/string_view.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 
-#include "points/input_file.h"
+#include "points/line_reader.h"
 #include "points/point_reader.h"
 
 namespace isofield {
 namespace {
-
-constexpr std::size_t kBlockBytes = 1 << 20;
 
 bool is_separator(char c) {
   return c == ' ' || c == ',' || c == '\t' || c == ';' || c == '\r';
@@ -38,13 +33,13 @@ bool take_number(absl::string_view& rest, double& value) {
 
 class CsvPoints : public PointReader {
  public:
-  CsvPoints(InputFile file, std::string name) : file_(std::move(file)), name_(std::move(name)) {}
+  explicit CsvPoints(std::unique_ptr<LineReader> lines) : lines_(std::move(lines)) {}
 
   absl::Status read(std::size_t max_points, std::vector<float>& xyz) override {
     const std::size_t full = xyz.size() + 3 * max_points;
     absl::string_view line;
     while (xyz.size() < full) {
-      const auto got = next_line(line);
+      const auto got = lines_->next(line, "\"x,y,z\"");
       if (!got.ok()) return got.status();
       if (!*got) break;
       if (auto status = parse(line, xyz); !status.ok()) return status;
@@ -53,43 +48,7 @@ class CsvPoints : public PointReader {
   }
 
  private:
-  // False at the end. The line lives until the next call.
-  absl::StatusOr<bool> next_line(absl::string_view& line) {
-    while (true) {
-      const char* begin = block_.data() + begin_;
-      const void* end = begin_ < end_ ? std::memchr(begin, '\n', end_ - begin_) : nullptr;
-      if (end != nullptr || (at_end_ && begin_ < end_)) {
-        const std::size_t length = end != nullptr ? static_cast<const char*>(end) - begin : end_ - begin_;
-        line = absl::string_view(begin, length);
-        begin_ += length + (end != nullptr ? 1 : 0);
-        ++line_number_;
-        return true;
-      }
-      if (at_end_) return false;
-      if (auto status = fill(); !status.ok()) return status;
-    }
-  }
-
-  // Moves the rest of the block to its start and reads more behind it.
-  absl::Status fill() {
-    std::memmove(block_.data(), block_.data() + begin_, end_ - begin_);
-    end_ -= begin_;
-    begin_ = 0;
-    if (end_ == block_.size()) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(name_, ":", line_number_ + 1, ": a line longer than 1 MiB; expected \"x,y,z\""));
-    }
-    const std::size_t got = std::fread(block_.data() + end_, 1, block_.size() - end_, file_.get());
-    end_ += got;
-    if (got == 0) {
-      if (std::ferror(file_.get())) return absl::ErrnoToStatus(errno, name_);
-      at_end_ = true;
-    }
-    return absl::OkStatus();
-  }
-
   absl::Status parse(absl::string_view line, std::vector<float>& xyz) {
-    if (line_number_ == 1 && line.substr(0, 3) == "\xEF\xBB\xBF") line.remove_prefix(3);
     absl::string_view rest = line;
     while (!rest.empty() && is_separator(rest.front())) rest.remove_prefix(1);
     if (rest.empty() || rest.front() == '#') return absl::OkStatus();
@@ -102,31 +61,20 @@ class CsvPoints : public PointReader {
           has_header_ = true;
           return absl::OkStatus();
         }
-        return refuse(line, "expected three numbers x,y,z");
+        return lines_->refuse(line, "expected three numbers x,y,z");
       }
       // Rounded to float32, as the server computes; 1e39 would become infinite there.
       const float rounded = static_cast<float>(value);
-      if (!std::isfinite(rounded)) return refuse(line, "expected finite coordinates that float32 can hold");
+      if (!std::isfinite(rounded)) return lines_->refuse(line, "expected finite coordinates that float32 can hold");
       xyz.push_back(rounded);
     }
     if (!rest.empty() && !has_header_) {
-      return refuse(line, "expected three numbers x,y,z and no more (a header line allows further columns)");
+      return lines_->refuse(line, "expected three numbers x,y,z and no more (a header line allows further columns)");
     }
     return absl::OkStatus();
   }
 
-  absl::Status refuse(absl::string_view line, const char* expected) const {
-    return absl::InvalidArgumentError(
-        absl::StrCat(name_, ":", line_number_, ": \"", line.substr(0, 60), "\": ", expected));
-  }
-
-  InputFile file_;
-  const std::string name_;
-  std::vector<char> block_ = std::vector<char>(kBlockBytes);
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-  std::size_t line_number_ = 0;
-  bool at_end_ = false;
+  std::unique_ptr<LineReader> lines_;
   bool seen_content_ = false;
   bool has_header_ = false;
 };
@@ -134,9 +82,9 @@ class CsvPoints : public PointReader {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<PointReader>> open_csv_points(const std::string& path) {
-  InputFile file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
-  if (!file) return absl::ErrnoToStatus(errno, path);
-  return std::make_unique<CsvPoints>(std::move(file), path == "-" ? "<stdin>" : path);
+  auto lines = LineReader::open(path);
+  if (!lines.ok()) return lines.status();
+  return std::make_unique<CsvPoints>(*std::move(lines));
 }
 
 }  // namespace isofield

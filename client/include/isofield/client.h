@@ -15,6 +15,7 @@
 
 #include "isofield/v1/info_service.pb.h"
 #include "isofield/v1/mesh_service.pb.h"
+#include "isofield/v1/operator_service.pb.h"
 #include "isofield/v1/scene.pb.h"
 #include "isofield/v1/scene_service.pb.h"
 
@@ -52,6 +53,14 @@ struct Grid {
   std::vector<float> values;
 };
 
+// An operator at rows of field values.
+struct OperatorValues {
+  // "g" and its partial derivatives, or "theta" and "dtheta_dalpha".
+  std::vector<std::string> columns;
+  // [n, columns].
+  std::vector<float> values;
+};
+
 // A connection to one isofieldd. Owns its channel; every method may be called from any number of threads at once.
 //
 // All errors are statuses whose message says what to do. UNAVAILABLE: no server answers, or it went away.
@@ -81,6 +90,20 @@ class Client {
   // All edits are applied, or none.
   absl::StatusOr<v1::SceneSummary> edit_parameters(const v1::EditParametersRequest& request);
   absl::StatusOr<v1::GetInfoResponse> info();
+
+  // Stores a custom operator, replacing one of that name. Scenes keep the one that they were put with.
+  absl::StatusOr<v1::OperatorSummary> put_operator(const std::string& name, v1::Operator message);
+  absl::StatusOr<v1::GetOperatorResponse> get_operator(const std::string& name);
+  // The built-in ones, then the custom ones by name.
+  absl::StatusOr<std::vector<v1::OperatorSummary>> list_operators();
+  absl::Status delete_operator(const std::string& name);
+  // An operator, or an opening, and its derivatives. `request` states it and the columns; arguments: [n, columns].
+  // Large arrays travel in several messages. INVALID_ARGUMENT: arguments is no multiple of the columns.
+  absl::StatusOr<OperatorValues> evaluate_operator(v1::EvaluateOperatorRequest request,
+                                                   std::span<const float> arguments);
+  // The opening angle that a point of the surface of a node's first child asks for; in the node's own frame.
+  absl::StatusOr<v1::PickOpeningResponse> pick_opening(const v1::SceneRef& scene, const std::string& node,
+                                                       const std::array<double, 3>& point);
 
   // The field at points. xyz: [n, 3] in model units, finite. Returns [n, 1], or with the gradient [n, 4]. Small
   // batches travel in one message, larger ones are streamed.

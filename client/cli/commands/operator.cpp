@@ -1,0 +1,151 @@
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_format.h>
+#include <absl/strings/str_join.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "commands/context.h"
+#include "commands/import_flags.h"
+#include "commands/scene_argument.h"
+#include "exit_codes.h"
+#include "isofield/operator_file.h"
+#include "json_output.h"
+
+namespace isofield {
+namespace {
+
+std::string law_of(const v1::OperatorSummary& summary) {
+  return summary.law() == v1::POSITIVE ? "positive" : summary.law() == v1::SIGNED ? "signed" : "either";
+}
+
+std::string version_of(const v1::OperatorSummary& summary) {
+  return summary.version() == 0 ? "built in" : absl::StrCat(summary.version());
+}
+
+void print(const v1::OperatorSummary& summary, bool json) {
+  if (json) {
+    print_json(summary);
+    return;
+  }
+  std::printf("%s: version %s, %s, %s fields, %s\n", summary.name().c_str(), version_of(summary).c_str(),
+              summary.kind().c_str(), law_of(summary).c_str(), absl::StrJoin(summary.arguments(), ",").c_str());
+}
+
+absl::Status put(const Context& context, const std::string& file, const std::string& name) {
+  auto message = read_operator_file(file);
+  if (!message.ok()) return file_error(message.status());
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto summary = client->put_operator(name.empty() ? name_for(file) : name, *std::move(message));
+  if (!summary.ok()) return summary.status();
+  print(*summary, context.json);
+  return absl::OkStatus();
+}
+
+absl::Status list(const Context& context) {
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto operators = client->list_operators();
+  if (!operators.ok()) return operators.status();
+  if (context.json) {
+    v1::ListOperatorsResponse all;
+    for (const auto& summary : *operators) *all.add_operators() = summary;
+    print_json(all);
+    return absl::OkStatus();
+  }
+  absl::PrintF("%-24s %-14s %-9s %9s  %s\n", "NAME", "KIND", "FIELDS", "VERSION", "ARGUMENTS");
+  for (const auto& summary : *operators) {
+    absl::PrintF("%-24s %-14s %-9s %9s  %s\n", summary.name(), summary.kind(), law_of(summary), version_of(summary),
+                 absl::StrJoin(summary.arguments(), ","));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status show(const Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto response = client->get_operator(name);
+  if (!response.ok()) return response.status();
+  if (context.json) {
+    print_json(*response);
+    return absl::OkStatus();
+  }
+  const auto text = format_operator_json(response->operator_());
+  if (!text.ok()) return text.status();
+  std::fwrite(text->data(), 1, text->size(), stdout);
+  return absl::OkStatus();
+}
+
+absl::Status remove(const Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  if (auto status = client->delete_operator(name); !status.ok()) return status;
+  if (context.json) JsonObject().set("deleted", name).print();
+  return absl::OkStatus();
+}
+
+struct PickArguments {
+  std::string scene, node;
+  std::array<double, 3> point{};
+  ImportFlags flags;
+};
+
+absl::Status pick(const Context& context, const PickArguments& arguments) {
+  const auto scene = scene_argument(arguments.scene, arguments.flags.get());
+  if (!scene.ok()) return scene.status();
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto picked = client->pick_opening(*scene, arguments.node, arguments.point);
+  if (!picked.ok()) return picked.status();
+  if (context.json) {
+    print_json(*picked);
+  } else {
+    absl::PrintF("theta = %.6g at alpha = %.6g degrees; f1 = %.6g, f2 = %.6g\n", picked->theta(), picked->alpha(),
+                 picked->f1(), picked->f2());
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void add_operator_commands(CLI::App& app, Context& context) {
+  struct Arguments {
+    std::string file, name;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* all = app.add_subcommand("operator", "Composition operators: keep, evaluate and draw them");
+  all->require_subcommand(1);
+
+  CLI::App* command = all->add_subcommand("ls", "List the built-in operators and the server's custom ones");
+  command->callback([&context] { context.outcome = list(context); });
+
+  command = all->add_subcommand("show", "Print an operator as JSON");
+  command->add_option("NAME", arguments->name)->required();
+  command->callback([&context, arguments] { context.outcome = show(context, arguments->name); });
+
+  command = all->add_subcommand("put", "Store a custom operator on the server, replacing one of that name");
+  command->add_option("FILE", arguments->file, "Operator (.json, .pb)")->required();
+  command->add_option("--name", arguments->name, "Name on the server (default: the file's, without its extension)");
+  command->callback([&context, arguments] { context.outcome = put(context, arguments->file, arguments->name); });
+
+  command = all->add_subcommand("rm", "Delete a custom operator of the server; scenes keep it");
+  command->add_option("NAME", arguments->name)->required();
+  command->callback([&context, arguments] { context.outcome = remove(context, arguments->name); });
+
+  add_operator_eval_command(*all, context);
+  add_operator_plot_command(*all, context);
+
+  const auto picked = std::make_shared<PickArguments>();
+  command = all->add_subcommand("pick", "Tell the opening angle at which the blend of two fields begins at a point");
+  command->add_option("SCENE", picked->scene, "A file, or else a name on the server")->required();
+  command->add_option("NODE", picked->node, "A node of two children, by name or #i")->required();
+  command->add_option("X", picked->point[0], "A point of the first child's surface, in the node's own frame")
+      ->required();
+  command->add_option("Y", picked->point[1])->required();
+  command->add_option("Z", picked->point[2])->required();
+  command->callback([&context, picked] { context.outcome = pick(context, *picked); });
+}
+
+}  // namespace isofield

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "points/line_reader.h"
+
+namespace isofield {
+
+// A text of numbers in named columns: a header line, then a row a line. Commas, semicolons or tabs separate where the
+// header has them, blanks elsewhere. Blank lines and lines that start with # are skipped. Single-threaded.
+class ArgumentTable {
+ public:
+  // Reads the header. INVALID_ARGUMENT: there is none. NOT_FOUND ...: the file cannot be read.
+  static absl::StatusOr<std::unique_ptr<ArgumentTable>> open(const std::string& path);
+
+  // Names in lower case.
+  const std::vector<std::string>& header() const { return header_; }
+  // The columns that read() returns, by their places in the header; others may hold anything.
+  void choose(std::vector<std::size_t> places) { places_ = std::move(places); }
+  // Appends up to max_rows rows of the chosen columns; fewer only at the end. INVALID_ARGUMENT: names the line and what
+  // is wrong in it.
+  absl::Status read(std::size_t max_rows, std::vector<float>& numbers);
+
+  // Of the header, for errors: "points.csv:1".
+  const std::string& place() const { return place_; }
+
+ private:
+  explicit ArgumentTable(std::unique_ptr<LineReader> lines) : lines_(std::move(lines)) {}
+  absl::Status read_header();
+  // False at the end. Skips blank lines and comments.
+  absl::StatusOr<bool> next_cells();
+  absl::Status parse_row(std::vector<float>& numbers) const;
+
+  std::unique_ptr<LineReader> lines_;
+  char separator_ = ' ';
+  std::vector<std::string> header_;
+  std::string place_;
+  std::vector<std::size_t> places_;
+  std::vector<absl::string_view> cells_;
+};
+
+}  // namespace isofield

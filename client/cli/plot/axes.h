@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plot/canvas.h"
+
+namespace isofield {
+
+inline constexpr Color kInk{25, 30, 40};
+
+// A plot's frame: where it lies on the canvas, and what its sides mean.
+struct Axes {
+  double left = 0, top = 0, width = 0, height = 0;  // pixels
+  double x_low = 0, x_high = 1, y_low = 0, y_high = 1;
+  std::vector<double> x_ticks, y_ticks;
+  std::string x_name, y_name;
+  double text_height = 9;  // pixels
+
+  Point place(double x, double y) const {
+    return {left + width * (x - x_low) / (x_high - x_low), top + height * (y_high - y) / (y_high - y_low)};
+  }
+  // Frame, tick marks, their numbers and the names.
+  void draw(Canvas& canvas) const;
+};
+
+}  // namespace isofield

@@ -1,0 +1,74 @@
+#include "engine/operator_evaluator.h"
+
+#include <algorithm>
+
+#include "blobtree/operation.h"
+#include "engine/resident_scene.h"
+#include "engine/session.h"
+#include "engine/status_macros.h"
+
+namespace isofield::engine {
+namespace {
+
+constexpr std::size_t kLocalSize = 64;
+constexpr std::size_t kMostRows = std::size_t{gpu::kMaxGroups} * kLocalSize;  // of one dispatch
+
+// Mirrors shaders/operator_eval.comp.
+struct Constants {
+  std::uint32_t count = 0;
+  std::uint32_t operands = 0;
+  std::uint32_t columns = 0;
+  Steering steering = Steering::kNone;
+  std::uint32_t code = 0;
+  std::uint32_t record = 0;
+  std::uint32_t is_opening = 0;
+};
+
+absl::Status run(gpu::Device& device, KernelCache& kernels, blobtree::Tape tape, Constants constants,
+                 std::size_t result_columns, std::span<const float> arguments, std::span<float> results) {
+  const KernelKind kind = KernelKind::of(tape);
+  constants.code = tape.code[0].code;
+  constants.record = tape.code[0].operation;
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels.get(shaders::kOperatorEval, kind));
+  ISOFIELD_ASSIGN_OR_RETURN(const auto resident, ResidentScene::create(device, std::move(tape)));
+  const std::size_t rows = arguments.size() / constants.columns;
+  for (std::size_t first = 0; first < rows; first += kMostRows) {
+    const std::size_t count = std::min(rows - first, kMostRows);
+    constants.count = static_cast<std::uint32_t>(count);
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer in,
+                              session.upload(arguments.subspan(first * constants.columns, count * constants.columns)));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer out, session.scratch(count * result_columns * sizeof(float)));
+    // The kernel runs no tape: any buffer will do in its place.
+    ISOFIELD_RETURN_IF_ERROR(
+        session.commands().dispatch(*kernel, resident->bindings(in, {{4, &in}, {5, &out}}), constants,
+                                    static_cast<std::uint32_t>((count + kLocalSize - 1) / kLocalSize)));
+    ISOFIELD_RETURN_IF_ERROR(session.download(out, results.subspan(first * result_columns, count * result_columns)));
+    ISOFIELD_RETURN_IF_ERROR(session.run());
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status OperatorEvaluator::evaluate(const std::shared_ptr<const operators::Operator>& op, std::size_t operands,
+                                         Steering steering, std::span<const float> arguments,
+                                         std::span<float> results) {
+  const auto k = static_cast<std::uint32_t>(operands);
+  const std::uint32_t is_steered = steering != Steering::kNone ? 1 : 0;
+  const Constants constants{.operands = k, .columns = k + is_steered + (op->by_angle ? 1u : 0u), .steering = steering};
+  return run(device_, kernels_, blobtree::operator_tape(op, operators::law_of(op->kind), k), constants,
+             1 + k + is_steered, arguments, results);
+}
+
+absl::Status OperatorEvaluator::evaluate_opening(const operators::Opening& opening, std::span<const float> alphas,
+                                                 std::span<float> results) {
+  operators::Operator op;
+  op.kind = operators::Kind::kGradient;
+  op.opening = opening;
+  return run(device_, kernels_,
+             blobtree::operator_tape(std::make_shared<const operators::Operator>(op), operators::Law::kPositive, 2),
+             {.columns = 1, .is_opening = 1}, 2, alphas, results);
+}
+
+}  // namespace isofield::engine

@@ -1,0 +1,132 @@
+#include "rpc/operator_service.h"
+
+#include <optional>
+
+#include "blobtree/operator_reader.h"
+#include "catalog/built_in_operators.h"
+#include "engine/status_macros.h"
+#include "rpc/opening_pick.h"
+#include "rpc/operator_arguments.h"
+#include "rpc/status.h"
+#include "rpc/tensor.h"
+
+namespace isofield::rpc {
+namespace {
+
+void fill_summary(const std::string& name, std::uint64_t version, const v1::Operator& message,
+                  v1::OperatorSummary& summary) {
+  const ArgumentShape shape = argument_shape(message);
+  summary.set_name(name);
+  summary.set_version(version);
+  summary.set_kind(catalog::kind_name(message));
+  if (shape.fields == ArgumentShape::Fields::kPositive) summary.set_law(v1::POSITIVE);
+  if (shape.fields == ArgumentShape::Fields::kSigned) summary.set_law(v1::SIGNED);
+  for (std::string& argument : argument_names(shape)) summary.add_arguments(std::move(argument));
+  summary.set_description(message.description());
+}
+
+void fill_summary(const catalog::OperatorEntry& entry, v1::OperatorSummary& summary) {
+  fill_summary(entry.name, entry.version, *entry.message, summary);
+}
+
+}  // namespace
+
+absl::Status OperatorService::put(const v1::PutOperatorRequest& request, v1::PutOperatorResponse& response) {
+  ISOFIELD_ASSIGN_OR_RETURN(auto op, blobtree::read_operator(request.operator_()));
+  ISOFIELD_ASSIGN_OR_RETURN(const catalog::OperatorEntry entry,
+                            operators_.put(request.name(), request.operator_(), std::move(op)));
+  fill_summary(entry, *response.mutable_summary());
+  return absl::OkStatus();
+}
+
+grpc::Status OperatorService::PutOperator(grpc::ServerContext*, const v1::PutOperatorRequest* request,
+                                          v1::PutOperatorResponse* response) {
+  return to_grpc(put(*request, *response));
+}
+
+grpc::Status OperatorService::GetOperator(grpc::ServerContext*, const v1::GetOperatorRequest* request,
+                                          v1::GetOperatorResponse* response) {
+  if (std::optional<v1::Operator> built_in = catalog::built_in_operator(request->name())) {
+    fill_summary(request->name(), 0, *built_in, *response->mutable_summary());
+    *response->mutable_operator_() = *std::move(built_in);
+    return grpc::Status::OK;
+  }
+  const absl::StatusOr<catalog::OperatorEntry> entry = operators_.get(request->name());
+  if (!entry.ok()) return to_grpc(entry.status());
+  fill_summary(*entry, *response->mutable_summary());
+  *response->mutable_operator_() = *entry->message;
+  return grpc::Status::OK;
+}
+
+grpc::Status OperatorService::ListOperators(grpc::ServerContext*, const v1::ListOperatorsRequest*,
+                                            v1::ListOperatorsResponse* response) {
+  for (const std::string& name : catalog::built_in_names()) {
+    fill_summary(name, 0, *catalog::built_in_operator(name), *response->add_operators());
+  }
+  for (const catalog::OperatorEntry& entry : operators_.list()) fill_summary(entry, *response->add_operators());
+  return grpc::Status::OK;
+}
+
+grpc::Status OperatorService::DeleteOperator(grpc::ServerContext*, const v1::DeleteOperatorRequest* request,
+                                             v1::DeleteOperatorResponse*) {
+  return to_grpc(operators_.remove(request->name()));
+}
+
+absl::Status OperatorService::evaluate_opening(const v1::EvaluateOperatorRequest& request,
+                                               v1::EvaluateOperatorResponse& response) {
+  v1::Operator holder;
+  *holder.mutable_gradient()->mutable_opening() = request.opening();
+  ISOFIELD_ASSIGN_OR_RETURN(const auto op, blobtree::read_operator(holder));
+  ISOFIELD_ASSIGN_OR_RETURN(
+      const OperatorArguments alphas,
+      OperatorArguments::read_alphas(request.columns(), request.arguments(), limits_.max_points_per_message));
+  response.add_columns("theta");
+  response.add_columns("dtheta_dalpha");
+  const std::span<float> out = make_float_tensor({alphas.rows(), 2}, *response.mutable_results());
+  if (out.empty()) return absl::OkStatus();
+  return engine_.operators().evaluate_opening(op->opening, alphas.numbers(), out);
+}
+
+absl::Status OperatorService::evaluate(const v1::EvaluateOperatorRequest& request,
+                                       v1::EvaluateOperatorResponse& response) {
+  if (request.operator_case() == v1::EvaluateOperatorRequest::kOpening) return evaluate_opening(request, response);
+  std::shared_ptr<const operators::Operator> op;
+  ArgumentShape shape;
+  std::optional<v1::Operator> built_in;
+  if (request.operator_case() == v1::EvaluateOperatorRequest::kName) {
+    built_in = catalog::built_in_operator(request.name());
+  }
+  if (built_in || request.operator_case() == v1::EvaluateOperatorRequest::kInline) {
+    const v1::Operator& message = built_in ? *built_in : request.inline_();
+    ISOFIELD_ASSIGN_OR_RETURN(op, blobtree::read_operator(message));
+    shape = argument_shape(message);
+  } else if (request.operator_case() == v1::EvaluateOperatorRequest::kName) {
+    ISOFIELD_ASSIGN_OR_RETURN(catalog::OperatorEntry entry, operators_.get(request.name()));
+    op = std::move(entry.op);
+    shape = argument_shape(*entry.message);
+  } else {
+    return absl::InvalidArgumentError("operator: expected a name, an inline operator, or an opening");
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(
+      const OperatorArguments arguments,
+      OperatorArguments::read(shape, request.columns(), request.arguments(), limits_.max_points_per_message));
+  const std::vector<std::string> columns = arguments.result_columns();
+  response.mutable_columns()->Assign(columns.begin(), columns.end());
+  const std::span<float> out = make_float_tensor({arguments.rows(), columns.size()}, *response.mutable_results());
+  if (out.empty()) return absl::OkStatus();
+  return engine_.operators().evaluate(op, arguments.operands(), arguments.steering(), arguments.numbers(), out);
+}
+
+grpc::Status OperatorService::EvaluateOperator(grpc::ServerContext*, const v1::EvaluateOperatorRequest* request,
+                                               v1::EvaluateOperatorResponse* response) {
+  return to_grpc(evaluate(*request, *response));
+}
+
+grpc::Status OperatorService::PickOpening(grpc::ServerContext*, const v1::PickOpeningRequest* request,
+                                          v1::PickOpeningResponse* response) {
+  const absl::StatusOr<FoundScene> found = scenes_.find(request->scene());
+  if (!found.ok()) return to_grpc(found.status());
+  return to_grpc(pick_opening(*found, *request, engine_, *response));
+}
+
+}  // namespace isofield::rpc

@@ -1,0 +1,115 @@
+// One operator at given field values: its value and partial derivatives, one invocation a row of arguments.
+//
+// The operands are fields whose directions are unit vectors, so that the direction of the result holds the partials: of
+// up to three operands at a time, or of two and what steers the operator.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "operators.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 4) readonly buffer Arguments { float arguments[]; };
+layout(std430, binding = 5) writeonly buffer Results { float results[]; };
+
+const uint STEERING_NONE = 0u, STEERING_THETA = 1u, STEERING_ALPHA = 2u;
+
+layout(push_constant) uniform Constants {
+  uint count;
+  uint operands;
+  uint columns;   // of a row of arguments: the fields, then what steers, then the ratio of the gradients' lengths
+  uint steering;
+  uint code;      // as of an instruction
+  uint record;
+  uint is_opening;  // the column is alpha, the results are theta and its derivative
+};
+
+Field operand(float f, uint slot) {
+  Field a = zero_field();
+  a.f = f;
+  if (slot < 3u) a.d[slot] = 1.0;
+  a.g = a.d;
+  return a;
+}
+
+// The blend at tan(theta) or through the opening; slot 2 of the direction is the derivative by theta or alpha.
+Field steered(Field a, Field b, uint op, float by) {
+  vec4 operation = operations[record];
+  vec2 t = vec2(tan(by), 0.0);
+  t.y = 1.0 + t.x * t.x;
+  if (steering == STEERING_ALPHA) {
+    // A difference turns its first operand inside out, and its gradient round.
+    bool is_turned = (code >> 16u & 3u) == FORM_DIFFERENCE;
+    t = opening_tangent(floatBitsToUint(operation.x), is_turned ? 3.14159265358979 - by : by).xy;
+    t.y = is_turned ? -t.y : t.y;
+  }
+  Blend g = is_operator(op, OPERATOR_GRADIENT)
+                ? gradient_blend(a.f, b.f, t.x, SMOOTH_SILHOUETTE)
+                : gradient_blend(a.f, b.f, t.x, silhouette_half(floatBitsToUint(operation.y), a.f, b.f));
+  Field r = zero_field();
+  r.f = g.g;
+  r.d = g.g1 * a.d + g.g2 * b.d + vec3(0.0, 0.0, g.gt * t.y);
+  r = select_field(r, a, b.f <= 0.0);
+  return select_field(r, b, a.f <= 0.0);
+}
+
+// With derivatives by the operands from `slot` on.
+Field result(uint row, uint slot) {
+  uint op = code >> 8u & 0xffu, mode = code >> 16u, at = row * columns;
+  float by = steering != STEERING_NONE ? arguments[at + operands] : 0.0;
+  Angle angle = no_angle();
+  if (may_follow_angle()) {
+    angle.cosine = vec4(cos(by), 0.0, 0.0, -sin(by)) * ((mode & 3u) == FORM_DIFFERENCE ? -1.0 : 1.0);
+    angle.ratio = dual(clamp(arguments[at + operands + 1u], 1.0 / MOST_RATIO, MOST_RATIO));
+  }
+  bool is_btk = is_operator(op, OPERATOR_BTK);
+  Field r = zero_field();
+  if (is_btk || is_operator(op, OPERATOR_SUPERELLIPTIC)) {
+    Field x[MAX_OPERANDS];
+    uint form = mode & 3u;
+    for (uint k = 0u; k < uint(MAX_OPERANDS); ++k) {
+      x[k] = zero_field();
+      if (k < operands) {
+        x[k] = operand(arguments[at + k], k - slot);
+        bool is_turned = form == FORM_INTERSECTION || (form == FORM_DIFFERENCE && k == 0u);
+        x[k] = select_field(x[k], linear(x[k], -1.0, 0.0), is_turned);
+      }
+    }
+    uint mask = (1u << operands) - 1u;
+    if (is_btk) r = blend_btk(x, mask, record, angle);
+    else r = blend_superelliptic(x, mask, record, angle);
+    r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
+  } else {
+    Field a = operand(arguments[at], 0u), b = operand(arguments[at + 1u], 1u);
+    Field first = a, second = b;
+    if (has_modes()) {
+      a = select_field(a, complement(a, mode), (mode & 3u) != FORM_UNION);
+      b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
+    }
+    if (is_operator(op, OPERATOR_GRADIENT) || is_operator(op, OPERATOR_GRADIENT_TABLE)) r = steered(a, b, op, by);
+    else r = unite(a, b, op, record, angle);
+    if (has_modes()) r = formed(r, first, second, mode);
+  }
+  // Operators that follow an angle keep its derivative in the gradient alone.
+  if (may_follow_angle()) r.d = r.g;
+  return r;
+}
+
+void main() {
+  uint row = gl_GlobalInvocationID.x;
+  if (row >= count) return;
+  if (is_opening != 0u) {
+    vec3 t = opening_tangent(floatBitsToUint(operations[record].x), arguments[row]);
+    results[2u * row] = atan(t.x);
+    results[2u * row + 1u] = t.y / (1.0 + t.x * t.x);
+    return;
+  }
+  bool is_steered_row = steering != STEERING_NONE;
+  uint width = 1u + operands + (is_steered_row ? 1u : 0u);
+  for (uint slot = 0u; slot < operands; slot += 3u) {
+    Field r = result(row, slot);
+    if (slot == 0u) results[row * width] = r.f;
+    for (uint k = 0u; k < min(operands - slot, 3u); ++k) results[row * width + 1u + slot + k] = r.d[k];
+    if (is_steered_row) results[row * width + 3u] = r.d.z;  // two operands
+  }
+}
