@@ -33,13 +33,23 @@ vec3 phi(float x) {
 // In place of a table: the smooth silhouette, by its polynomial.
 const uint SMOOTH_SILHOUETTE = 0xffffffffu;
 
-// The silhouette's profile q(u), u within [0, 1], with derivatives. Exactly (1, 0, 0) at 0.
-vec3 silhouette_profile(uint table, float u) {
+// Where the cells of a silhouette lie: (e, n) of Grading in server/operators/profile_table.h. Loaded once, outside of
+// Newton's loop.
+vec2 silhouette_grading(uint table) { return table == SMOOTH_SILHOUETTE ? vec2(0.0) : tables[table].xy; }
+
+// The silhouette's profile q(u), u within [0, 1], with derivatives. Exactly (1, 0, 0) at 0. w = 1 - u comes from the
+// caller, who has it without cancellation: beside a fold q depends on its square root.
+vec3 silhouette_profile(uint table, vec2 grading, float u, float w) {
   vec3 q;
   if (table == SMOOTH_SILHOUETTE) {
     q = smooth_profile(2.0 * u - 1.0) * vec3(1.0, 2.0, 4.0);
   } else {
-    q = profile(table, SILHOUETTE_CELLS, float(SILHOUETTE_CELLS), u);
+    float root = max(sqrt(grading.x * grading.x + w), 1e-6);
+    float z = 1.0 - w * grading.y / (root + grading.x);
+    vec3 p = profile(table + 1u, SILHOUETTE_CELLS, float(SILHOUETTE_CELLS), z);
+    root = max(root, 1e-4);  // at the fold of the strongest bulge the slope is infinite
+    float z_u = 0.5 * grading.y / root;
+    q = vec3(p.x, p.y * z_u, p.z * z_u * z_u + 0.5 * p.y * z_u / (root * root));
   }
   return u > 0.0 ? q : vec3(1.0, 0.0, 0.0);
 }
