@@ -54,7 +54,7 @@ ProfileTable silhouette_table(const Silhouette& silhouette) {
     }
     return Curve{q.v, slope, 0};
   });
-  table.insert(table.begin(), {static_cast<float>(grading.e), static_cast<float>(grading.n()), 0, 0});
+  table.insert(table.begin(), {static_cast<float>(grading.e), 0, 0, 0});
   return table;
 }
 

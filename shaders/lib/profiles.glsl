@@ -11,15 +11,15 @@
 const int SILHOUETTE_CELLS = 256;
 const int OPENING_CELLS = 256;
 
-// Value, first and second derivative.
-vec3 profile(uint table, int cells, float per_unit, float x) {
-  float place = clamp(x * per_unit, 0.0, float(cells));
+// Value, first and second derivative at a place counted in cells.
+vec3 profile(uint table, int cells, float x) {
+  float place = clamp(x, 0.0, float(cells));
   int cell = min(int(place), cells - 1);
   float s = place - float(cell);
   vec4 c = tables[table + uint(cell)];
   float value = c.x + s * (c.y + s * (c.z + s * c.w));
   float slope = c.y + s * (2.0 * c.z + s * (3.0 * c.w));
-  return vec3(value, slope * per_unit, (2.0 * c.z + 6.0 * s * c.w) * per_unit * per_unit);
+  return vec3(value, slope, 2.0 * c.z + 6.0 * s * c.w);
 }
 
 // phi of [G] eq. 20, x within [0, 2], with derivatives. Its lower half mirrors the upper: phi(x) = phi(2 - x) - 1 + x.
@@ -33,30 +33,35 @@ vec3 phi(float x) {
 // In place of a table: the smooth silhouette, by its polynomial.
 const uint SMOOTH_SILHOUETTE = 0xffffffffu;
 
-// Where the cells of a silhouette lie: (e, n) of Grading in server/operators/profile_table.h. Loaded once, outside of
-// Newton's loop.
-vec2 silhouette_grading(uint table) { return table == SMOOTH_SILHOUETTE ? vec2(0.0) : tables[table].xy; }
+// Where the cells of a silhouette lie: e^2 of Grading in server/operators/profile_table.h, and n and 1 + n e in cells.
+// Made once, outside of Newton's loop.
+vec3 silhouette_grading(uint table) {
+  if (table == SMOOTH_SILHOUETTE) return vec3(0.0);
+  float e = tables[table].x;
+  float e2 = e * e, n = sqrt(e2 + 1.0) + e;
+  return vec3(e2, n * float(SILHOUETTE_CELLS), (1.0 + n * e) * float(SILHOUETTE_CELLS));
+}
 
 // The silhouette's profile q(u), u within [0, 1], with derivatives. Exactly (1, 0, 0) at 0. w = 1 - u comes from the
 // caller, who has it without cancellation: beside a fold q depends on its square root.
-vec3 silhouette_profile(uint table, vec2 grading, float u, float w) {
+vec3 silhouette_profile(uint table, vec3 grading, float u, float w) {
   vec3 q;
   if (table == SMOOTH_SILHOUETTE) {
     q = smooth_profile(2.0 * u - 1.0) * vec3(1.0, 2.0, 4.0);
   } else {
-    float root = max(sqrt(grading.x * grading.x + w), 1e-6);
-    float z = 1.0 - w * grading.y / (root + grading.x);
-    vec3 p = profile(table + 1u, SILHOUETTE_CELLS, float(SILHOUETTE_CELLS), z);
-    root = max(root, 1e-4);  // at the fold of the strongest bulge the slope is infinite
-    float z_u = 0.5 * grading.y / root;
-    q = vec3(p.x, p.y * z_u, p.z * z_u * z_u + 0.5 * p.y * z_u / (root * root));
+    float root = sqrt(grading.x + w);
+    vec3 p = profile(table + 1u, SILHOUETTE_CELLS, grading.z - grading.y * root);
+    float inverse = 1.0 / max(root, 1e-4);  // at the fold of the strongest bulge the slope is infinite
+    float z_u = 0.5 * grading.y * inverse;
+    q = vec3(p.x, p.y * z_u, z_u * (p.z * z_u + 0.5 * p.y * inverse * inverse));
   }
   return u > 0.0 ? q : vec3(1.0, 0.0, 0.0);
 }
 
 // tan(theta) of an opening function at alpha within [0, pi].
 vec3 opening_tangent(uint table, float alpha) {
-  vec3 t = profile(table, OPENING_CELLS, float(OPENING_CELLS) / 3.14159265358979, alpha);
+  const float per_unit = float(OPENING_CELLS) / 3.14159265358979;
+  vec3 t = profile(table, OPENING_CELLS, alpha * per_unit) * vec3(1.0, per_unit, per_unit * per_unit);
   t.x = max(t.x, 0.0);  // the cubics of the steepest openings undershoot by 4e-4
   return t;
 }

@@ -42,7 +42,7 @@ Errors silhouette_errors(const std::string& name, const Silhouette& silhouette) 
   const ProfileTable table = silhouette_table(silhouette);
   EXPECT_EQ(table.size(), kSilhouetteCells + 1u);
   const Grading grading = Grading::of(silhouette);
-  EXPECT_EQ(table[0], (CubicCell{static_cast<float>(grading.e), static_cast<float>(grading.n()), 0, 0}));
+  EXPECT_EQ(table[0], (CubicCell{static_cast<float>(grading.e), 0, 0, 0}));
   Errors worst;
   for (int i = 0; i < kSilhouetteCells; ++i) {
     const auto& c = table[i + 1];
