@@ -14,7 +14,14 @@ namespace {
 #include "mesh_vertices.inc"
 #include "mesh_normals.inc"
 #include "mesh_triangles.inc"
+#include "operator_blend_probe.inc"
 #include "operator_probe.inc"
+#include "operator_volume_probe.inc"
+#include "sampled_volume.inc"
+#include "smooth_volume_high.inc"
+#include "smooth_volume_low.inc"
+#include "table_volume_high.inc"
+#include "table_volume_low.inc"
 
 }  // namespace
 
@@ -29,6 +36,13 @@ const Spirv kMeshList{mesh_list};
 const Spirv kMeshVertices{mesh_vertices};
 const Spirv kMeshNormals{mesh_normals};
 const Spirv kMeshTriangles{mesh_triangles};
+const Spirv kOperatorBlendProbe{operator_blend_probe};
 const Spirv kOperatorProbe{operator_probe};
+const Spirv kOperatorVolumeProbe{operator_volume_probe};
+const Spirv kSampledVolume{sampled_volume};
+const Spirv kSmoothVolumeHigh{smooth_volume_high};
+const Spirv kSmoothVolumeLow{smooth_volume_low};
+const Spirv kTableVolumeHigh{table_volume_high};
+const Spirv kTableVolumeLow{table_volume_low};
 
 }  // namespace isofield::shaders

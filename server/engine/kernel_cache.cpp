@@ -36,7 +36,7 @@ KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
 
 absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
   const Key key{reinterpret_cast<std::uintptr_t>(shader.data()), kind.operand_set, kind.operator_set, kind.stack_depth,
-                kind.tape_length};
+                kind.tape_length, kind.volume_set};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
   bool compiles = false;
@@ -50,8 +50,8 @@ absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shad
     kernel = it->second;
   }
   if (compiles) {
-    const std::array<std::uint32_t, 4> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
-                                                 kind.tape_length};
+    const std::array<std::uint32_t, 5> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
+                                                 kind.tape_length, kind.volume_set};
     auto pipeline = gpu::Pipeline::create(device_, shader, constants);
     if (!pipeline.ok()) {
       // A later request may find the memory that was missing.

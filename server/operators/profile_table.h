@@ -20,8 +20,8 @@ inline constexpr int kSilhouetteCells = 256;  // z of Grading within [0, 1]
 inline constexpr int kOpeningCells = 256;     // alpha within [0, pi]
 
 // A bulge's profile q(u) ends at its fold, u = 1, like a square root, entirely so at K = 1. Its cells therefore lie at
-// even steps of z = 1 - n (sqrt(e^2 + w) - e), w = 1 - u, in which it is smooth; e tells how far beyond the fold the root
-// lies, and n = sqrt(e^2 + 1) + e lets z start at 0. A large e leaves the steps even in u.
+// even steps of z = 1 - n (sqrt(e^2 + w) - e), w = 1 - u, in which it is smooth; e tells how far beyond the fold the
+// root lies, and n = sqrt(e^2 + 1) + e lets z start at 0. A large e leaves the steps even in u.
 struct Grading {
   double e;
 

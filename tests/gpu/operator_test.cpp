@@ -138,7 +138,8 @@ TEST(OperatorOnDevice, AgreesWithExactArithmeticOnRandomInput) {
       worst_partial = std::max({worst_partial, std::abs(results[i][1] - exact.g1), std::abs(results[i][2] - exact.g2),
                                 std::abs(results[i][3] - gt)});
     }
-    std::cout << "random arguments, K " << silhouette.k << ": max error of g " << worst << ", of its partials " << worst_partial << "\n";
+    std::cout << "random arguments, K " << silhouette.k << ": max error of g " << worst << ", of its partials "
+              << worst_partial << "\n";
     EXPECT_LE(worst, tolerance);
     EXPECT_LE(worst_partial, 1e-3);
   }
