@@ -16,7 +16,7 @@ using CubicCell = std::array<float, 4>;
 using ProfileTable = std::vector<CubicCell>;
 
 // Numbers of cells. Measured maximal errors of the device's g against exact arithmetic are in tests/gpu.
-inline constexpr int kSilhouetteCells = 256;  // z of Grading within [0, 1]
+inline constexpr int kSilhouetteCells = 512;  // z of Grading within [0, 1]
 inline constexpr int kOpeningCells = 256;     // alpha within [0, pi]
 
 // A bulge's profile q(u) ends at its fold, u = 1, like a square root, entirely so at K = 1. Its cells therefore lie at

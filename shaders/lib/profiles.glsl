@@ -8,7 +8,7 @@
 #include "profile_polynomials.glsl"  // written at build time
 
 // Mirrors server/operators/profile_table.h.
-const int SILHOUETTE_CELLS = 256;
+const int SILHOUETTE_CELLS = 512;
 const int OPENING_CELLS = 256;
 
 // Value, first and second derivative at a place counted in cells.
