@@ -35,8 +35,12 @@ KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
 }
 
 absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
-  const Key key{reinterpret_cast<std::uintptr_t>(shader.data()), kind.operand_set, kind.operator_set, kind.stack_depth,
-                kind.tape_length, kind.volume_set};
+  const Key key{reinterpret_cast<std::uintptr_t>(shader.data()),
+                kind.operand_set,
+                kind.operator_set,
+                kind.stack_depth,
+                kind.tape_length,
+                kind.volume_set};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
   bool compiles = false;
