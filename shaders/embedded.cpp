@@ -15,6 +15,13 @@ namespace {
 #include "mesh_normals.inc"
 #include "mesh_triangles.inc"
 #include "operator_eval.inc"
+#include "operator_blend_probe.inc"
+#include "operator_volume_probe.inc"
+#include "sampled_volume.inc"
+#include "smooth_volume_high.inc"
+#include "smooth_volume_low.inc"
+#include "table_volume_high.inc"
+#include "table_volume_low.inc"
 
 }  // namespace
 
@@ -30,5 +37,12 @@ const Spirv kMeshVertices{mesh_vertices};
 const Spirv kMeshNormals{mesh_normals};
 const Spirv kMeshTriangles{mesh_triangles};
 const Spirv kOperatorEval{operator_eval};
+const Spirv kOperatorBlendProbe{operator_blend_probe};
+const Spirv kOperatorVolumeProbe{operator_volume_probe};
+const Spirv kSampledVolume{sampled_volume};
+const Spirv kSmoothVolumeHigh{smooth_volume_high};
+const Spirv kSmoothVolumeLow{smooth_volume_low};
+const Spirv kTableVolumeHigh{table_volume_high};
+const Spirv kTableVolumeLow{table_volume_low};
 
 }  // namespace isofield::shaders

@@ -12,5 +12,8 @@ extern const Spirv kPointsValue, kPointsGradient;
 extern const Spirv kGridValue, kGridGradient;
 extern const Spirv kMeshSample, kMeshClassify, kMeshConnect, kMeshList, kMeshVertices, kMeshNormals, kMeshTriangles;
 extern const Spirv kOperatorEval;
+// operator_volume.comp by silhouette and half; sampled_volume.comp.
+extern const Spirv kSmoothVolumeLow, kSmoothVolumeHigh, kTableVolumeLow, kTableVolumeHigh, kSampledVolume;
+extern const Spirv kOperatorBlendProbe, kOperatorVolumeProbe;
 
 }  // namespace isofield::shaders

@@ -43,9 +43,12 @@ Field steered(Field a, Field b, uint op, float by) {
     t = opening_tangent(floatBitsToUint(operation.x), is_turned ? 3.14159265358979 - by : by).xy;
     t.y = is_turned ? -t.y : t.y;
   }
-  Blend g = is_operator(op, OPERATOR_GRADIENT)
-                ? gradient_blend(a.f, b.f, t.x, SMOOTH_SILHOUETTE)
-                : gradient_blend(a.f, b.f, t.x, silhouette_half(floatBitsToUint(operation.y), a.f, b.f));
+  uint blend = floatBitsToUint(operation.y);
+  Blend g;
+  if (is_operator(op, OPERATOR_GRADIENT)) g = gradient_blend(a.f, b.f, t.x, SMOOTH_SILHOUETTE);
+  else if (is_operator(op, OPERATOR_GRADIENT_VOLUME)) {
+    g = volume_blend(a.f, b.f, t.x, blend & 0xffu, blend >> 8u, operation.w > 0.0);
+  } else g = gradient_blend(a.f, b.f, t.x, silhouette_half(blend, a.f, b.f));
   Field r = zero_field();
   r.f = g.g;
   r.d = g.g1 * a.d + g.g2 * b.d + vec3(0.0, 0.0, g.gt * t.y);
@@ -86,7 +89,8 @@ Field result(uint row, uint slot) {
       a = select_field(a, complement(a, mode), (mode & 3u) != FORM_UNION);
       b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
     }
-    if (is_operator(op, OPERATOR_GRADIENT) || is_operator(op, OPERATOR_GRADIENT_TABLE)) r = steered(a, b, op, by);
+    if (is_operator(op, OPERATOR_GRADIENT) || is_operator(op, OPERATOR_GRADIENT_TABLE) ||
+        is_operator(op, OPERATOR_GRADIENT_VOLUME)) r = steered(a, b, op, by);
     else r = unite(a, b, op, record, angle);
     if (has_modes()) r = formed(r, first, second, mode);
   }
@@ -100,7 +104,7 @@ void main() {
   if (row >= count) return;
   if (is_opening != 0u) {
     vec3 t = opening_tangent(floatBitsToUint(operations[record].x), arguments[row]);
-    results[2u * row] = atan(t.x);
+    results[2u * row] = arctangent(t.x);
     results[2u * row + 1u] = t.y / (1.0 + t.x * t.x);
     return;
   }

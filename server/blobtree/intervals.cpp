@@ -98,9 +98,12 @@ Interval union_interval(Operator op, const Operation& o, const Interval& a, cons
     case Operator::kBernhardt:
       // Arcs: at most a quarter of a circle around the origin.
       return {std::max(a.lo, b.lo), std::hypot(a.hi, b.hi) + kValueRoom};
-    case Operator::kGradientVolume:
-      // g(f, 0) = f and the samples rise: between the maximum and what bounds them.
-      return {std::max(a.lo, b.lo) - kValueRoom, std::max(a.hi, b.hi) * (1 + o.silhouette_bound) + kValueRoom};
+    case Operator::kGradientVolume: {
+      // Between nodes that are a step further; there between the maximum and what bounds them.
+      const double high = std::max(a.hi, b.hi);
+      const double step = std::max(high, 1.0) / (operators::volume_key(*o.what).size - 1);
+      return {std::max(std::max(a.lo, b.lo) - step, 0.0), (high + step) * (1 + o.silhouette_bound) + kValueRoom};
+    }
     case Operator::kPasko:
       return pasko(*o.what, a, b);
     case Operator::kFunctional:

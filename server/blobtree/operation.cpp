@@ -62,6 +62,13 @@ Operator opcode_of(const operators::Operator& op, Law law) {
   return Operator::kMax;
 }
 
+std::uint32_t slot_of(Tape& tape, const std::shared_ptr<const operators::Operator>& op) {
+  std::uint32_t slot = 0;
+  while (slot < tape.volumes.size() && operators::volume_key(*tape.volumes[slot]) != operators::volume_key(*op)) ++slot;
+  if (slot == tape.volumes.size()) tape.volumes.push_back(op);
+  return slot;
+}
+
 }  // namespace
 
 Operation operation_of(std::shared_ptr<const operators::Operator> op, Law law, std::uint32_t operands,
@@ -91,6 +98,7 @@ std::uint32_t add_operation(Tape& tape, Operation operation) {
   const auto place = static_cast<std::uint32_t>(tape.operations.size());
   operation.record = static_cast<std::uint32_t>(tape.record_owners.size());
   tape.record_owners.resize(operation.record + operation_record_size(operation), place);
+  if (operation.op == Operator::kGradientVolume) operation.volume_slot = slot_of(tape, operation.what);
   tape.operations.push_back(std::move(operation));
   return place;
 }

@@ -288,6 +288,9 @@ std::optional<Operator> read_kind(const Message& m, FieldReader& in) {
     if (volume != 0 && volume != 16 && volume != 32 && volume != 64 && volume != 128) {
       in.refuse("volume", absl::StrCat(volume), "0, 16, 32, 64 or 128 samples a side");
     }
+    if (volume != 0 && !op.silhouette.is_symmetric()) {
+      in.refuse("volume", absl::StrCat(volume), "0 with a sampled silhouette, which is a table");
+    }
     op.volume = static_cast<int>(volume);
   } else if (m.has_clean()) {
     classic(Kind::kClean, m.clean());

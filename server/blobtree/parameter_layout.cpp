@@ -159,7 +159,7 @@ class Layout {
         out[0] = steered(o, tables_.silhouette(o.what->silhouette));
         break;
       case Operator::kGradientVolume:
-        out[0] = steered(o, pack_volume(volume_slot(*o.what), operators::volume_key(*o.what).size));
+        out[0] = steered(o, pack_volume(o.volume_slot, operators::volume_key(*o.what).size));
         // A sampled operator is homogeneous about the origin, a volume of the gradient blend about (t/2, t/2).
         if (o.what->kind == operators::Kind::kSampled) out[0][3] = -out[0][3];
         break;
@@ -205,16 +205,9 @@ class Layout {
             f(std::tan(o.what->opening.theta_min())), f(o.length)};
   }
 
-  std::uint32_t volume_slot(const operators::Operator& op) {
-    const auto [it, is_new] = slots_.try_emplace(operators::volume_key(op), static_cast<std::uint32_t>(slots_.size()));
-    if (is_new) buffers_.volumes.push_back(op);
-    return it->second;
-  }
-
   const Tape& tape_;
   ParameterBuffers buffers_;
   Tables tables_;
-  std::map<operators::VolumeKey, std::uint32_t> slots_;
 };
 
 }  // namespace

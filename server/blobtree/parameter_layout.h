@@ -17,8 +17,6 @@ struct ParameterBuffers {
   std::vector<Float4> leaves;      // records of leaf_record_size vec4s
   std::vector<Float4> operations;  // records of operation_record_size vec4s
   std::vector<Float4> tables;      // cubic cells of silhouettes, openings and curves
-  // The operators whose volumes the kernels read, by slot: at most kMaxVolumes different ones.
-  std::vector<operators::Operator> volumes;
 };
 
 // Never empty buffers: a device binding needs a byte to bind to.

@@ -135,6 +135,7 @@ struct Operation {
   double silhouette_bound = 0;
   double factor = 1, offset = 0;  // kLinear
   double range = 1;               // kSoften
+  std::uint32_t volume_slot = 0;  // kGradientVolume
   std::uint32_t operands = 0;     // kSuperelliptic, kBtk
   std::uint32_t node = 0;         // in Scene::nodes
   std::uint32_t record = 0;       // Instruction::operation: its first vec4
@@ -153,6 +154,8 @@ struct Tape {
   operators::Law law = operators::Law::kPositive;  // of the root
   // Of the root. Positive: holds its support; empty for a field that is 0 everywhere. Signed: holds its solid.
   Box support;
+  // One operator of each volume that the operations read, by slot: at most kMaxVolumes.
+  std::vector<std::shared_ptr<const operators::Operator>> volumes;
   std::uint32_t arity = 0;  // most operands of a kSuperelliptic or kBtk
 
   const Operation& operation(const Instruction& i) const { return operations[record_owners[i.operation]]; }

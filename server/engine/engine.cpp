@@ -10,9 +10,10 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
     : device_(std::move(device)),
       limits_(limits),
       kernels_(*device_),
+      volumes_(*device_, kernels_),
       fields_(*device_, kernels_),
       mesher_(*device_, kernels_),
-      operators_(*device_, kernels_) {}
+      operators_(*device_, kernels_, volumes_) {}
 
 absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions& options,
                                                        const blobtree::SceneLimits& limits) {
@@ -23,7 +24,7 @@ absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions&
 absl::StatusOr<SceneLease> Engine::make_resident(const v1::Scene& scene, const blobtree::OperatorTable& operators) {
   ISOFIELD_ASSIGN_OR_RETURN(const blobtree::Scene valid, blobtree::read_scene(scene, limits_, operators));
   ISOFIELD_ASSIGN_OR_RETURN(blobtree::Tape tape, blobtree::compile(valid));
-  return ResidentScene::create(*device_, std::move(tape));
+  return ResidentScene::create(*device_, volumes_, std::move(tape));
 }
 
 absl::StatusOr<SceneLease> Engine::acquire(std::uint64_t version, const v1::Scene& scene,

@@ -41,6 +41,7 @@ class Engine {
     std::uint64_t scenes = 0, bytes = 0;
   };
   Residency residency() const;
+  VolumeCache& volumes() { return volumes_; }
 
   gpu::Device& device() { return *device_; }
   FieldEvaluator& fields() { return fields_; }
@@ -53,6 +54,7 @@ class Engine {
   std::unique_ptr<gpu::Device> device_;
   blobtree::SceneLimits limits_;
   KernelCache kernels_;
+  VolumeCache volumes_;
   FieldEvaluator fields_;
   Mesher mesher_;
   OperatorEvaluator operators_;

@@ -26,6 +26,7 @@ std::uint32_t round_depth(std::uint32_t depth) {
 KernelKind KernelKind::of(const blobtree::Tape& tape) {
   KernelKind kind{tape.operand_set, tape.operator_set | bit(Operator::kPush), round_depth(tape.stack_depth)};
   kind.arity = round_depth(tape.arity);
+  kind.volume_set = (1u << tape.volumes.size()) - 1;
   // Pruning may turn an exchanged difference with nothing to take away into a clamp.
   if (kind.operator_set & bit(Operator::kSubtractFrom)) kind.operator_set |= bit(Operator::kSubtract);
   return kind;
@@ -41,7 +42,8 @@ absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shad
                 kind.operator_set,
                 kind.stack_depth,
                 kind.tape_length,
-                kind.arity};
+                kind.arity,
+                kind.volume_set};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
   bool compiles = false;
@@ -55,8 +57,8 @@ absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shad
     kernel = it->second;
   }
   if (compiles) {
-    const std::array<std::uint32_t, 5> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
-                                                 kind.tape_length, kind.arity};
+    const std::array<std::uint32_t, 6> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
+                                                 kind.tape_length, kind.arity,        kind.volume_set};
     auto pipeline = gpu::Pipeline::create(device_, shader, constants);
     if (!pipeline.ok()) {
       // A later request may find the memory that was missing.

@@ -22,6 +22,7 @@ struct KernelKind {
   std::uint32_t operand_set = 0, operator_set = 0, stack_depth = 0;
   std::uint32_t tape_length = 0;  // 0: any
   std::uint32_t arity = 0;        // most operands of an n-ary operator
+  std::uint32_t volume_set = 0;   // slots of volumes, by bits (shaders/lib/volume.glsl)
 
   // For every tape pruned from this one.
   static KernelKind of(const blobtree::Tape& tape);
@@ -38,7 +39,7 @@ class KernelCache {
 
  private:
   using Compiled = absl::StatusOr<std::shared_ptr<const gpu::Pipeline>>;
-  using Key = std::array<std::uintptr_t, 6>;
+  using Key = std::array<std::uintptr_t, 7>;
 
   gpu::Device& device_;
   std::mutex mutex_;

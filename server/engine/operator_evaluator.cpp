@@ -24,13 +24,14 @@ struct Constants {
   std::uint32_t is_opening = 0;
 };
 
-absl::Status run(gpu::Device& device, KernelCache& kernels, blobtree::Tape tape, Constants constants,
-                 std::size_t result_columns, std::span<const float> arguments, std::span<float> results) {
+absl::Status run(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes, blobtree::Tape tape,
+                 Constants constants, std::size_t result_columns, std::span<const float> arguments,
+                 std::span<float> results) {
   const KernelKind kind = KernelKind::of(tape);
   constants.code = tape.code[0].code;
   constants.record = tape.code[0].operation;
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels.get(shaders::kOperatorEval, kind));
-  ISOFIELD_ASSIGN_OR_RETURN(const auto resident, ResidentScene::create(device, std::move(tape)));
+  ISOFIELD_ASSIGN_OR_RETURN(const auto resident, ResidentScene::create(device, volumes, std::move(tape)));
   const std::size_t rows = arguments.size() / constants.columns;
   for (std::size_t first = 0; first < rows; first += kMostRows) {
     const std::size_t count = std::min(rows - first, kMostRows);
@@ -57,7 +58,7 @@ absl::Status OperatorEvaluator::evaluate(const std::shared_ptr<const operators::
   const auto k = static_cast<std::uint32_t>(operands);
   const std::uint32_t is_steered = steering != Steering::kNone ? 1 : 0;
   const Constants constants{.operands = k, .columns = k + is_steered + (op->by_angle ? 1u : 0u), .steering = steering};
-  return run(device_, kernels_, blobtree::operator_tape(op, operators::law_of(op->kind), k), constants,
+  return run(device_, kernels_, volumes_, blobtree::operator_tape(op, operators::law_of(op->kind), k), constants,
              1 + k + is_steered, arguments, results);
 }
 
@@ -66,7 +67,7 @@ absl::Status OperatorEvaluator::evaluate_opening(const operators::Opening& openi
   operators::Operator op;
   op.kind = operators::Kind::kGradient;
   op.opening = opening;
-  return run(device_, kernels_,
+  return run(device_, kernels_, volumes_,
              blobtree::operator_tape(std::make_shared<const operators::Operator>(op), operators::Law::kPositive, 2),
              {.columns = 1, .is_opening = 1}, 2, alphas, results);
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "engine/kernel_cache.h"
+#include "engine/volume_cache.h"
 #include "gpu/device.h"
 #include "operators/operator.h"
 
@@ -18,11 +19,12 @@ enum class Steering : std::uint32_t { kNone, kTheta, kAlpha };
 // Thread-safe.
 class OperatorEvaluator {
  public:
-  OperatorEvaluator(gpu::Device& device, KernelCache& kernels) : device_(device), kernels_(kernels) {}
+  OperatorEvaluator(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes)
+      : device_(device), kernels_(kernels), volumes_(volumes) {}
 
   // arguments: rows of `operands` field values, theta or alpha where the operator is steered by one (radians), and, for
-  // operators that follow the angle of two gradients, the ratio of their lengths; results: rows of g, its derivatives by
-  // the fields, and by theta or alpha. An operator of either law is taken for positive fields.
+  // operators that follow the angle of two gradients, the ratio of their lengths; results: rows of g, its derivatives
+  // by the fields, and by theta or alpha. An operator of either law is taken for positive fields.
   absl::Status evaluate(const std::shared_ptr<const operators::Operator>& op, std::size_t operands, Steering steering,
                         std::span<const float> arguments, std::span<float> results);
   // results: rows of theta, dtheta/dalpha.
@@ -32,6 +34,7 @@ class OperatorEvaluator {
  private:
   gpu::Device& device_;
   KernelCache& kernels_;
+  VolumeCache& volumes_;
 };
 
 }  // namespace isofield::engine

@@ -63,10 +63,19 @@ absl::Status Commands::dispatch(const Pipeline& pipeline, const Bindings& bindin
     const vk::DescriptorSet set = impl_->next_set();
     std::vector<vk::DescriptorBufferInfo> infos;
     std::vector<vk::WriteDescriptorSet> writes;
-    infos.reserve(bindings.size());
-    for (const auto& [binding, buffer] : bindings) {
-      infos.emplace_back(**buffer->impl().buffer, 0, VK_WHOLE_SIZE);
+    infos.reserve(kBindings);
+    const auto bind = [&](std::uint32_t binding, const Buffer& buffer) {
+      infos.emplace_back(**buffer.impl().buffer, 0, VK_WHOLE_SIZE);
       writes.emplace_back(set, binding, 0, 1, vk::DescriptorType::eStorageBuffer, nullptr, &infos.back());
+    };
+    std::uint32_t named = 0;
+    for (const auto& [binding, buffer] : bindings) {
+      bind(binding, *buffer);
+      named |= 1u << binding;
+    }
+    // Vulkan wants a buffer wherever the module, as yet unspecialised, could read one.
+    for (std::uint32_t binding = 0; binding < kBindings && !bindings.empty(); ++binding) {
+      if (!(named >> binding & 1u)) bind(binding, *bindings.front().second);
     }
     impl_->device.device->updateDescriptorSets(writes, {});
     const vk::raii::CommandBuffer& b = impl_->buffer;

@@ -24,7 +24,8 @@ class Commands {
   ~Commands();
 
   using Bindings = std::vector<std::pair<std::uint32_t, const Buffer*>>;
-  // Runs `groups` workgroups along x, at most kMaxGroups. Nothing is recorded for 0.
+  // Runs `groups` workgroups along x, at most kMaxGroups. Nothing is recorded for 0. Bindings that the pipeline
+  // declares but its specialisation never reads may go unnamed.
   absl::Status dispatch(const Pipeline& pipeline, const Bindings& bindings, std::span<const std::byte> push_constants,
                         std::uint32_t groups);
   template <class Constants>

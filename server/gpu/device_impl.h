@@ -11,7 +11,7 @@
 namespace isofield::gpu {
 
 // Bindings of every pipeline: storage buffers 0 to kBindings - 1, and kPushBytes of push constants.
-inline constexpr std::uint32_t kBindings = 12;
+inline constexpr std::uint32_t kBindings = 16;
 inline constexpr std::uint32_t kPushBytes = 128;
 
 struct Device::Impl {

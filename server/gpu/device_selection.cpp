@@ -7,7 +7,7 @@
 namespace isofield::gpu {
 namespace {
 
-constexpr std::uint32_t kStorageBuffers = 12;
+constexpr std::uint32_t kStorageBuffers = 16;
 constexpr std::uint32_t kInvocations = 128;
 
 // Empty: fit.

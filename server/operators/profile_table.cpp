@@ -15,9 +15,7 @@ ProfileTable tabulate(int cells, double range, const std::function<Curve(double)
   for (int i = 0; i < cells; ++i) {
     const Curve right = function(h * (i + 1));
     const double rise = right.v - left.v, dl = left.d1 * h;
-    double dr = right.d1 * h;
-    // A function that ends (nearly) vertically, as a bulge of K = 1 does at its fold, ends in a parabola.
-    if (i + 1 == cells && std::abs(dr) > 4 * std::abs(rise)) dr = 2 * rise - dl;
+    const double dr = right.d1 * h;
     table[i] = {static_cast<float>(left.v), static_cast<float>(dl), static_cast<float>(3 * rise - 2 * dl - dr),
                 static_cast<float>(dl + dr - 2 * rise)};
     left = right;
@@ -27,15 +25,41 @@ ProfileTable tabulate(int cells, double range, const std::function<Curve(double)
 
 }  // namespace
 
+Grading Grading::of(const Silhouette& silhouette) {
+  if (silhouette.kind != Silhouette::Kind::kBulge) return {1};
+  // At x = 1 - d beside the fold w = (1 - K) d + K (2 - K) d^2.
+  const double k = silhouette.k;
+  return {std::min((1 - k) / (2 * std::sqrt(std::max(k * (2 - k), 1e-9))), 1.0)};
+}
+
+double Grading::n() const {
+  return std::sqrt(e * e + 1) + e;
+}
+double Grading::w(double z) const {
+  const double v = (1 - z) / n();
+  return v * (2 * e + v);
+}
+double Grading::slope(double z) const {
+  return 2 * (e + (1 - z) / n()) / n();
+}
+
 ProfileTable silhouette_table(const Silhouette& silhouette) {
   using Half = Silhouette::Half;
-  const auto half = [&](Half h) {
-    return tabulate(kSilhouetteCells, 1, [&](double u) { return silhouette.profile(u, h); });
-  };
-  ProfileTable table = half(Half::kFirst);
-  if (!silhouette.is_symmetric()) {
-    const ProfileTable second = half(Half::kSecond);
-    table.insert(table.end(), second.begin(), second.end());
+  const Grading grading = Grading::of(silhouette);
+  ProfileTable table;
+  for (const Half half : {Half::kFirst, Half::kSecond}) {
+    if (half == Half::kSecond && silhouette.is_symmetric()) break;
+    const ProfileTable cells = tabulate(kSilhouetteCells, 1, [&](double z) {
+      const Curve q = silhouette.profile(1 - grading.w(z), half);
+      double slope = q.d1 * grading.slope(z);
+      // At the fold of a bulge q = 1 + K d.
+      if (z >= 1 && silhouette.kind == Silhouette::Kind::kBulge && silhouette.k > 0.5) {
+        slope = -std::sqrt(silhouette.k / (2 - silhouette.k)) / grading.n();
+      }
+      return Curve{q.v, slope, 0};
+    });
+    table.push_back({static_cast<float>(grading.e), 0, 0, 0});
+    table.insert(table.end(), cells.begin(), cells.end());
   }
   return table;
 }

@@ -16,10 +16,24 @@ using CubicCell = std::array<float, 4>;
 using ProfileTable = std::vector<CubicCell>;
 
 // Numbers of cells. Measured maximal errors of the device's g against exact arithmetic are in tests/gpu.
-inline constexpr int kSilhouetteCells = 256;  // u within [0, 1]
+inline constexpr int kSilhouetteCells = 512;  // z of Grading within [0, 1]
 inline constexpr int kOpeningCells = 256;     // alpha within [0, pi]
 
-// Of a silhouette that is not symmetric: the cells of the first half, then those of the second.
+// A bulge's profile q(u) ends at its fold, u = 1, like a square root, entirely so at K = 1. Its cells therefore lie at
+// even steps of z = 1 - n (sqrt(e^2 + w) - e), w = 1 - u, in which it is smooth; e tells how far beyond the fold the
+// root lies, and n = sqrt(e^2 + 1) + e lets z start at 0. A large e leaves the steps even in u.
+struct Grading {
+  double e;
+
+  static Grading of(const Silhouette& silhouette);
+  double n() const;
+  // w at z, and -dw/dz.
+  double w(double z) const;
+  double slope(double z) const;
+};
+
+// One record (e, 0, 0, 0), then kSilhouetteCells cells; of a silhouette that is not symmetric the same again for the second
+// half.
 ProfileTable silhouette_table(const Silhouette& silhouette);
 // tan(theta(alpha)): the operator needs nothing else of theta.
 ProfileTable opening_table(const Opening& opening);

@@ -7,6 +7,7 @@
 #include "operators/gradient_blend.h"
 #include "operators/ranged_blends.h"
 #include "operators/signed_blends.h"
+#include "operators/volume.h"
 #include "reference/jet.h"
 
 namespace isofield::reference {
@@ -59,8 +60,17 @@ Dual opening_angle(const OperatorUse& use, const DualVec3& a, const DualVec3& b)
   return chain(t, std::atan(t.v), 1 / (1 + t.v * t.v));
 }
 
-// The blend at a given angle, from profiles or, where the operator has no others, from its samples.
+// The blend at a given angle: exact, or of the volume or the samples that the operator is looked up in.
 operators::Blend steered_blend(const operators::Operator& op, double f1, double f2, double theta) {
+  using operators::Continuation;
+  if (op.kind == Kind::kSampled) {
+    return operators::volume_blend(f1, f2, theta, op.samples->size, operators::sampled_nodes(*op.samples),
+                                   Continuation::kAboutOrigin);
+  }
+  if (op.volume != 0) {
+    return operators::volume_blend(f1, f2, theta, op.volume, operators::gradient_nodes(op.silhouette, op.volume),
+                                   Continuation::kAboutBoundary);
+  }
   return operators::gradient_blend(f1, f2, theta, op.silhouette);
 }
 

@@ -52,14 +52,17 @@ Blend gradient_blend(float f1, float f2, float t, uint silhouette) {
   float hi = max(f1, f2), lo = min(f1, f2);
   // Where lo <= k the profile is at u = 0, M = hi - k exactly and C stays hi: the maximum, to the bit.
   float c = hi;
+  vec3 grading = silhouette_grading(silhouette);
   Boundary k;
   vec3 q;
   float a, u, rest, slope;
   for (int step = 0; step < 3; ++step) {
     k = boundary(c, t);
     a = max(hi - k.k, 1e-30);
-    u = clamp((lo - k.k) / a, 0.0, 1.0);
-    q = silhouette_profile(silhouette, u);
+    // 1 - u has no cancellation where a table needs it; either way u is 0 exactly where lo <= k.
+    float w = min((hi - lo) / a, 1.0);
+    u = silhouette == SMOOTH_SILHOUETTE ? clamp((lo - k.k) / a, 0.0, 1.0) : 1.0 - w;
+    q = silhouette_profile(silhouette, grading, u, w);
     rest = 1.0 - (q.x + (1.0 - u) * q.y);
     slope = 1.0 - k.k_f * rest;
     // F(C) = C - k - M: the last pass has the partials at the root, and mends C once more.

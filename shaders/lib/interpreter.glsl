@@ -57,9 +57,12 @@ Field evaluate(vec3 point, uint begin, uint count) {
         b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
       }
       if (is_operator(op, OPERATOR_GRADIENT)) {
-        r = blend_by_gradient(a, b, operations[i.z], SMOOTH_SILHOUETTE);
+        r = blend_by_gradient(a, b, operations[i.z], SMOOTH_SILHOUETTE, false);
       } else if (is_operator(op, OPERATOR_GRADIENT_TABLE)) {
-        r = blend_by_gradient(a, b, operations[i.z], silhouette_half(floatBitsToUint(operations[i.z].y), a.f, b.f));
+        uint silhouette = silhouette_half(floatBitsToUint(operations[i.z].y), a.f, b.f);
+        r = blend_by_gradient(a, b, operations[i.z], silhouette, false);
+      } else if (is_operator(op, OPERATOR_GRADIENT_VOLUME)) {
+        r = blend_by_gradient(a, b, operations[i.z], floatBitsToUint(operations[i.z].y), true);
       } else if (op != OPERATOR_PUSH) {
         Angle angle = no_angle();
         if (may_follow_angle()) angle = angle_between(a, b);

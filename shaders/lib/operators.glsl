@@ -6,6 +6,7 @@
 #include "gradient_blend.glsl"
 #include "ranged_blends.glsl"
 #include "signed_blends.glsl"
+#include "volume.glsl"
 
 // The falloff of primitives, leaves.glsl.
 const float R0_SIGNED = 0.45420201894740647;
@@ -274,10 +275,12 @@ vec2 gradient_presence(float n) {
 }
 
 // [G] eqs. 15 to 24, steered by the angle between the operands' directions; the gradient is the whole of eq. 29.
-Field blend_by_gradient(Field a, Field b, vec4 operation, uint silhouette) {
+// `blend`: a silhouette for gradient_blend(), or with `is_volume` the slot of a volume and its size << 8; of a sampled
+// operator the operation's length is negative.
+Field blend_by_gradient(Field a, Field b, vec4 operation, uint blend, bool is_volume) {
   uint opening = floatBitsToUint(operation.x);
   float t_min = operation.z;
-  float h = operation.w;
+  float h = abs(operation.w);
   vec3 d1 = a.d * h, d2 = b.d * h;
   float n1 = dot(d1, d1), n2 = dot(d2, d2);
   float inverse1 = inversesqrt(max(n1, 1e-12)), inverse2 = inversesqrt(max(n2, 1e-12));
@@ -286,7 +289,9 @@ Field blend_by_gradient(Field a, Field b, vec4 operation, uint silhouette) {
   vec2 w1 = gradient_presence(n1), w2 = gradient_presence(n2);
   float t = t_min + (open.x - t_min) * w1.x * w2.x;
 
-  Blend g = gradient_blend(a.f, b.f, t, silhouette);
+  Blend g;
+  if (is_volume) g = volume_blend(a.f, b.f, t, blend & 0xffu, blend >> 8u, operation.w > 0.0);
+  else g = gradient_blend(a.f, b.f, t, blend);
   Field r = zero_field();
   r.f = g.g;
   r.d = g.g1 * a.d + g.g2 * b.d;

@@ -8,19 +8,19 @@
 #include "profile_polynomials.glsl"  // written at build time
 
 // Mirrors server/operators/profile_table.h.
-const int SILHOUETTE_CELLS = 256;
+const int SILHOUETTE_CELLS = 512;
 const int OPENING_CELLS = 256;
 const int CURVE_CELLS = 1024;
 
-// Value, first and second derivative.
-vec3 profile(uint table, int cells, float per_unit, float x) {
-  float place = clamp(x * per_unit, 0.0, float(cells));
+// Value, first and second derivative at a place counted in cells.
+vec3 profile(uint table, int cells, float x) {
+  float place = clamp(x, 0.0, float(cells));
   int cell = min(int(place), cells - 1);
   float s = place - float(cell);
   vec4 c = tables[table + uint(cell)];
   float value = c.x + s * (c.y + s * (c.z + s * c.w));
   float slope = c.y + s * (2.0 * c.z + s * (3.0 * c.w));
-  return vec3(value, slope * per_unit, (2.0 * c.z + 6.0 * s * c.w) * per_unit * per_unit);
+  return vec3(value, slope, 2.0 * c.z + 6.0 * s * c.w);
 }
 
 // phi of [G] eq. 20, x within [0, 2], with derivatives. Its lower half mirrors the upper: phi(x) = phi(2 - x) - 1 + x.
@@ -34,13 +34,27 @@ vec3 phi(float x) {
 // In place of a table: the smooth silhouette, by its polynomial.
 const uint SMOOTH_SILHOUETTE = 0xffffffffu;
 
-// The silhouette's profile q(u), u within [0, 1], with derivatives. Exactly (1, 0, 0) at 0.
-vec3 silhouette_profile(uint table, float u) {
+// Where the cells of a silhouette lie: e^2 of Grading in server/operators/profile_table.h, and n and 1 + n e in cells.
+// Made once, outside of Newton's loop.
+vec3 silhouette_grading(uint table) {
+  if (table == SMOOTH_SILHOUETTE) return vec3(0.0);
+  float e = tables[table].x;
+  float e2 = e * e, n = sqrt(e2 + 1.0) + e;
+  return vec3(e2, n * float(SILHOUETTE_CELLS), (1.0 + n * e) * float(SILHOUETTE_CELLS));
+}
+
+// The silhouette's profile q(u), u within [0, 1], with derivatives. Exactly (1, 0, 0) at 0. w = 1 - u comes from the
+// caller, who has it without cancellation: beside a fold q depends on its square root.
+vec3 silhouette_profile(uint table, vec3 grading, float u, float w) {
   vec3 q;
   if (table == SMOOTH_SILHOUETTE) {
     q = smooth_profile(2.0 * u - 1.0) * vec3(1.0, 2.0, 4.0);
   } else {
-    q = profile(table, SILHOUETTE_CELLS, float(SILHOUETTE_CELLS), u);
+    float root = sqrt(grading.x + w);
+    vec3 p = profile(table + 1u, SILHOUETTE_CELLS, grading.z - grading.y * root);
+    float inverse = 1.0 / max(root, 1e-4);  // at the fold of the strongest bulge the slope is infinite
+    float z_u = 0.5 * grading.y * inverse;
+    q = vec3(p.x, p.y * z_u, z_u * (p.z * z_u + 0.5 * p.y * inverse * inverse));
   }
   return u > 0.0 ? q : vec3(1.0, 0.0, 0.0);
 }
@@ -48,13 +62,14 @@ vec3 silhouette_profile(uint table, float u) {
 // The table of the half that the greater field says, of a silhouette as a scene's record names it: bit 30 marks one whose
 // halves differ.
 uint silhouette_half(uint silhouette, float f1, float f2) {
-  uint second = (silhouette >> 30u & 1u) != 0u && f1 < f2 ? uint(SILHOUETTE_CELLS) : 0u;
+  uint second = (silhouette >> 30u & 1u) != 0u && f1 < f2 ? uint(SILHOUETTE_CELLS + 1) : 0u;
   return (silhouette & 0x3fffffffu) + second;
 }
 
 // tan(theta) of an opening function at alpha within [0, pi].
 vec3 opening_tangent(uint table, float alpha) {
-  vec3 t = profile(table, OPENING_CELLS, float(OPENING_CELLS) / 3.14159265358979, alpha);
+  const float per_unit = float(OPENING_CELLS) / 3.14159265358979;
+  vec3 t = profile(table, OPENING_CELLS, alpha * per_unit) * vec3(1.0, per_unit, per_unit * per_unit);
   t.x = max(t.x, 0.0);  // the cubics of the steepest openings undershoot by 4e-4
   return t;
 }

@@ -35,7 +35,7 @@ Bracket superelliptic_bracket(Dual x, Dual range, float t) {
 // [G] eq. 6: x2 - H(x1). `curve`: its table, the first control point, cells per unit.
 Binary functional_blend(Dual x1, Dual x2, vec3 curve) {
   float x = value_of(x1) - curve.y;
-  vec3 h = profile(floatBitsToUint(curve.x), CURVE_CELLS, curve.z, x);
+  vec3 h = profile(floatBitsToUint(curve.x), CURVE_CELLS, x * curve.z) * vec3(1.0, curve.z, curve.z * curve.z);
   bool is_beyond = x <= 0.0 || x * curve.z >= float(CURVE_CELLS);
   h.yz = is_beyond ? vec2(0.0) : h.yz;
   return Binary(x2 - chain(x1, h.x, h.y), -chain(x1, h.y, h.z), dual(1.0));

@@ -35,7 +35,7 @@ struct Case {
 };
 
 std::vector<float> evaluate(const Case& c, const std::vector<float>& arguments) {
-  static engine::OperatorEvaluator evaluator(device(), kernels());
+  static engine::OperatorEvaluator evaluator(device(), kernels(), volumes());
   const Steering steering = c.op.by_angle ? Steering::kAlpha : Steering::kNone;
   const std::size_t columns = c.operands + (c.op.by_angle ? 2 : 0);
   std::vector<float> results(arguments.size() / columns * (1 + c.operands + (c.op.by_angle ? 1 : 0)));

@@ -51,8 +51,14 @@ engine::KernelCache& kernels() {
   return *the_kernels;
 }
 
+engine::VolumeCache& volumes() {
+  static engine::VolumeCache cache(device(), kernels());
+  return cache;
+}
+
 engine::SceneLease resident(const v1::Scene& scene) {
-  auto lease = engine::ResidentScene::create(device(), test_support::compile_or_die(test_support::read_or_die(scene)));
+  auto lease = engine::ResidentScene::create(device(), volumes(),
+                                             test_support::compile_or_die(test_support::read_or_die(scene)));
   if (!lease.ok()) {
     std::cerr << lease.status() << "\n";
     std::exit(1);

@@ -10,6 +10,7 @@ namespace isofield::gpu_test {
 
 gpu::Device& device();
 engine::KernelCache& kernels();
+engine::VolumeCache& volumes();
 
 // Read, compiled and uploaded; the process ends where that is refused.
 engine::SceneLease resident(const v1::Scene& scene);

@@ -1,0 +1,143 @@
+// The `volume` representation of an operator: looked up trilinearly in float32 (hardware filters have weights of 8
+// bits). Mirrors server/operators/volume.h. A drop-in for gradient_blend().
+#ifndef VOLUME_GLSL
+#define VOLUME_GLSL
+
+#include "gradient_blend.glsl"
+
+// (g, dg/df1, dg/df2, dg/dtheta) at size^3 nodes over f1, f2 in [0, 1] and theta in [0, pi/4], f1 fastest.
+layout(std430, binding = 12) readonly buffer Volume0 { vec4 volume0[]; };
+layout(std430, binding = 13) readonly buffer Volume1 { vec4 volume1[]; };
+layout(std430, binding = 14) readonly buffer Volume2 { vec4 volume2[]; };
+layout(std430, binding = 15) readonly buffer Volume3 { vec4 volume3[]; };
+
+// The slots that a kernel's tapes use, by bits: the look-up in another is dropped before compilation.
+layout(constant_id = 5) const uint VOLUME_SET = 0xfu;
+
+vec4 volume_node(uint slot, uint at) {
+  vec4 v = vec4(0.0);
+  if ((VOLUME_SET & 1u) != 0u && (VOLUME_SET == 1u || slot == 0u)) v = volume0[at];
+  if ((VOLUME_SET & 2u) != 0u && (VOLUME_SET == 2u || slot == 1u)) v = volume1[at];
+  if ((VOLUME_SET & 4u) != 0u && (VOLUME_SET == 4u || slot == 2u)) v = volume2[at];
+  if ((VOLUME_SET & 8u) != 0u && (VOLUME_SET == 8u || slot == 3u)) v = volume3[at];
+  return v;
+}
+
+// arctangent for t within [0, 1] to 1.5e-7: the driver's own is allowed 4,096 ulp. A polynomial in t^2 through Chebyshev nodes.
+float arctangent(float t) {
+  float s = 2.0 * t * t - 1.0;
+  float p = -3.56233748e-05;
+  p = p * s + 0.000122206979;
+  p = p * s - 0.00035709704;
+  p = p * s + 0.00130263291;
+  p = p * s - 0.005031653;
+  p = p * s + 0.0208544822;
+  p = p * s - 0.101876518;
+  p = p * s + 0.870419669;
+  return t * p;
+}
+
+// The interpolated node, with the slopes of the interpolation.
+struct VolumeCell {
+  vec4 v;
+#ifdef WITH_GRADIENT
+  vec4 v1, v2, v_theta;
+#endif
+};
+
+VolumeCell volume_cell(float f1, float f2, float theta, uint slot, uint size) {
+  float last = float(size - 1u);
+  const float PER_THETA = 1.27323954473516;  // 4 / pi
+  vec3 place = clamp(vec3(f1, f2, theta * PER_THETA), 0.0, 1.0) * last;
+  uvec3 cell = min(uvec3(place), uvec3(size - 2u));
+  vec3 s = place - vec3(cell);
+  uint at = (cell.z * size + cell.y) * size + cell.x;
+  uint up = at + size * size;
+  vec4 n000 = volume_node(slot, at), n100 = volume_node(slot, at + 1u);
+  vec4 n010 = volume_node(slot, at + size), n110 = volume_node(slot, at + size + 1u);
+  vec4 n001 = volume_node(slot, up), n101 = volume_node(slot, up + 1u);
+  vec4 n011 = volume_node(slot, up + size), n111 = volume_node(slot, up + size + 1u);
+  // On the diagonal, where max and folds break, a cell is two prisms: linear on either side.
+  bool is_diagonal = cell.x == cell.y, is_lower = s.x >= s.y;
+  if (is_diagonal && is_lower) {
+    n010 = n000 + n110 - n100;
+    n011 = n001 + n111 - n101;
+  }
+  if (is_diagonal && !is_lower) {
+    n100 = n000 + n110 - n010;
+    n101 = n001 + n111 - n011;
+  }
+  vec4 x00 = n000 + s.x * (n100 - n000), x10 = n010 + s.x * (n110 - n010);
+  vec4 x01 = n001 + s.x * (n101 - n001), x11 = n011 + s.x * (n111 - n011);
+  vec4 y0 = x00 + s.y * (x10 - x00), y1 = x01 + s.y * (x11 - x01);
+  VolumeCell r;
+  r.v = y0 + s.z * (y1 - y0);
+#ifdef WITH_GRADIENT
+  vec4 d00 = n100 - n000, d10 = n110 - n010, d01 = n101 - n001, d11 = n111 - n011;
+  vec4 d0 = d00 + s.y * (d10 - d00), d1 = d01 + s.y * (d11 - d01);
+  r.v1 = (d0 + s.z * (d1 - d0)) * last;
+  vec4 e0 = x10 - x00, e1 = x11 - x01;
+  r.v2 = (e0 + s.z * (e1 - e0)) * last;
+  r.v_theta = (y1 - y0) * (last * PER_THETA);
+#endif
+  return r;
+}
+
+// g at t = tan(theta) within [0, 1], f1 and f2 >= 0. Beyond 1 the nodes end: the gradient blend is homogeneous there
+// about (t/2, t/2), any other operator is continued about the origin (`profile_like` tells which). A field of 0 leaves
+// the other untouched, to the bit.
+Blend volume_blend(float f1, float f2, float t, uint slot, uint size, bool profile_like) {
+  float hi = max(f1, f2);
+  float h = profile_like ? 0.5 * t : 0.0;
+  float scale = max((hi - h) / (1.0 - h), 1.0);
+  bool is_beyond = hi > 1.0;
+  float p1 = is_beyond ? h + (f1 - h) / scale : f1, p2 = is_beyond ? h + (f2 - h) / scale : f2;
+  VolumeCell c = volume_cell(p1, p2, arctangent(t), slot, size);
+  vec4 v = c.v;
+  Blend b;
+  b.g = is_beyond ? h + scale * (v.x - h) : v.x;
+  b.g1 = v.y;
+  b.g2 = v.z;
+  // Continued about the origin, the partial along the larger field is that of scale * g(p).
+  bool turns = is_beyond && !profile_like;
+  bool exchanged = f1 < f2;
+  if (turns && !exchanged) b.g1 = v.x - p2 * v.z;
+  if (turns && exchanged) b.g2 = v.x - p1 * v.y;
+#ifdef WITH_GRADIENT
+  float theta_t = 1.0 / (1.0 + t * t);
+  float gt = v.w * theta_t;
+  vec2 g_t = vec2(c.v_theta.y, c.v_theta.z) * theta_t;  // of g1 and g2
+  float g11 = c.v1.y, g12 = 0.5 * (c.v1.z + c.v2.y), g22 = c.v2.z;
+  // How p moves with t, and the scale.
+  float scale_t = profile_like ? 0.5 * (scale - 1.0) / (1.0 - h) : 0.0;
+  float h_t = profile_like ? 0.5 : 0.0;
+  vec2 p_t = is_beyond ? h_t * (1.0 - 1.0 / scale) - (vec2(p1, p2) - h) * (scale_t / scale) : vec2(0.0);
+  b.gt = is_beyond ? h_t + scale_t * (v.x - h) + scale * (v.y * p_t.x + v.z * p_t.y + gt - h_t) : gt;
+  b.g11 = g11 / scale;
+  b.g12 = g12 / scale;
+  b.g22 = g22 / scale;
+  b.g1t = g_t.x + g11 * p_t.x + g12 * p_t.y;
+  b.g2t = g_t.y + g12 * p_t.x + g22 * p_t.y;
+  if (turns) {
+    // Second partials of m G(lo / m) follow from the one along the smaller field.
+    float p = exchanged ? p1 : p2, g_lo_lo = (exchanged ? g11 : g22) / scale;
+    float g_lo_t = exchanged ? g_t.x : g_t.y, g_hi_t = gt - p * g_lo_t;
+    b.g11 = exchanged ? g_lo_lo : p * p * g_lo_lo;
+    b.g12 = -p * g_lo_lo;
+    b.g22 = exchanged ? p * p * g_lo_lo : g_lo_lo;
+    b.g1t = exchanged ? g_lo_t : g_hi_t;
+    b.g2t = exchanged ? g_hi_t : g_lo_t;
+  }
+#endif
+  if (min(f1, f2) <= 0.0) {
+    b.g = hi;
+    b.g1 = exchanged ? 0.0 : 1.0;
+    b.g2 = exchanged ? 1.0 : 0.0;
+#ifdef WITH_GRADIENT
+    b.gt = b.g11 = b.g12 = b.g22 = b.g1t = b.g2t = 0.0;
+#endif
+  }
+  return b;
+}
+
+#endif

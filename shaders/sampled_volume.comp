@@ -1,0 +1,26 @@
+// The volume of an operator that is given by samples alone: partials by central differences, one-sided at the ends.
+#version 450
+
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 4) readonly buffer Samples { float samples[]; };  // size^3, f1 fastest
+layout(std430, binding = 5) writeonly buffer Nodes { vec4 nodes[]; };      // as in operator_volume.comp
+
+layout(push_constant) uniform Constants {
+  uint size;
+};
+
+const float QUARTER_PI = 0.785398163397448;
+
+float difference(uint at, uint stride, uint place) {
+  uint before = place > 0u ? 1u : 0u, after = place + 1u < size ? 1u : 0u;
+  return (samples[at + after * stride] - samples[at - before * stride]) * float(size - 1u) / float(before + after);
+}
+
+void main() {
+  uint at = gl_GlobalInvocationID.x;
+  if (at >= size * size * size) return;
+  uint i = at % size, j = at / size % size, k = at / (size * size);
+  nodes[at] = vec4(samples[at], difference(at, 1u, i), difference(at, size, j),
+                   difference(at, size * size, k) / QUARTER_PI);
+}
