@@ -122,6 +122,11 @@ std::string kind_names() {
 
 }  // namespace
 
+std::string node_path(std::size_t index, const v1::Node& message) {
+  return message.name().empty() ? absl::StrCat("nodes[", index, "]")
+                                : absl::StrCat("nodes[", index, "] '", message.name(), "'");
+}
+
 std::vector<const std::string*> child_references(const v1::Node& message) {
   static const google::protobuf::OneofDescriptor* const kKind = v1::Node::descriptor()->FindOneofByName("kind");
   std::vector<const std::string*> references;

@@ -9,6 +9,9 @@
 
 namespace isofield::blobtree {
 
+// What errors call a node: nodes[3] 'arm/upper'.
+std::string node_path(std::size_t index, const v1::Node& message);
+
 // Fills everything of `node` but `children`; node.path is set and used in errors. The law of operators that take either
 // is left to scene_reader, too.
 absl::Status read_node(const v1::Node& message, const OperatorTable& custom, Node& node);

@@ -6,6 +6,8 @@
 #include <absl/strings/str_join.h>
 #include <absl/strings/str_split.h>
 
+#include <set>
+
 namespace isofield::blobtree {
 namespace {
 
@@ -88,12 +90,13 @@ absl::Status apply(const ParameterEdit& edit, v1::Node& node) {
 
 }  // namespace
 
-absl::Status apply_edits(const std::vector<ParameterEdit>& edits, v1::Scene& scene) {
+absl::StatusOr<std::vector<std::uint32_t>> apply_edits(const std::vector<ParameterEdit>& edits, v1::Scene& scene) {
   absl::flat_hash_map<std::string, int> names;
   for (int i = 0; i < scene.nodes_size(); ++i) {
     if (!scene.nodes(i).name().empty()) names.emplace(scene.nodes(i).name(), i);
   }
   v1::Scene edited = scene;
+  std::set<std::uint32_t> changed;
   for (const ParameterEdit& edit : edits) {
     int index = -1;
     if (!edit.node.empty() && edit.node[0] == '#') {
@@ -105,9 +108,10 @@ absl::Status apply_edits(const std::vector<ParameterEdit>& edits, v1::Scene& sce
       return refuse(edit, absl::StrCat("no such node; expected a node's name, or #0 to #", edited.nodes_size() - 1));
     }
     if (absl::Status s = apply(edit, *edited.mutable_nodes(index)); !s.ok()) return s;
+    changed.insert(static_cast<std::uint32_t>(index));
   }
   scene = std::move(edited);
-  return absl::OkStatus();
+  return std::vector<std::uint32_t>(changed.begin(), changed.end());
 }
 
 }  // namespace isofield::blobtree

@@ -1,8 +1,9 @@
 // Edits of a scene's numbers, addressed by node and field.
 #pragma once
 
-#include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct ParameterEdit {
 };
 
 // Applies all edits, or none. INVALID_ARGUMENT: no such node or numeric field, or another count of numbers than the
-// field holds. Whether the values are admitted is for read_scene to say.
-absl::Status apply_edits(const std::vector<ParameterEdit>& edits, v1::Scene& scene);
+// field holds. Whether the values are admitted is for read_scene to say. Returns the nodes that are changed.
+absl::StatusOr<std::vector<std::uint32_t>> apply_edits(const std::vector<ParameterEdit>& edits, v1::Scene& scene);
 
 }  // namespace isofield::blobtree

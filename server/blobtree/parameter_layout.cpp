@@ -132,8 +132,6 @@ class Layout {
   explicit Layout(const Tape& tape) : tape_(tape), tables_(buffers_.tables) {}
 
   ParameterBuffers run() {
-    buffers_.leaves.resize(std::max<std::size_t>(tape_.leaf_records, 1));
-    for (const Leaf& leaf : tape_.leaves) write_leaf(leaf, &buffers_.leaves[leaf.record]);
     buffers_.operations.resize(std::max<std::size_t>(tape_.record_owners.size(), 1));
     for (const Operation& o : tape_.operations) write_operation(o, &buffers_.operations[o.record]);
     if (buffers_.tables.empty()) buffers_.tables.resize(1);
@@ -213,6 +211,13 @@ class Layout {
 }  // namespace
 
 ParameterBuffers lay_out(const Tape& tape) {
+  ParameterBuffers buffers = lay_out_operations(tape);
+  buffers.leaves.resize(std::max<std::size_t>(tape.leaf_records, 1));
+  for (const Leaf& leaf : tape.leaves) write_leaf(leaf, &buffers.leaves[leaf.record]);
+  return buffers;
+}
+
+ParameterBuffers lay_out_operations(const Tape& tape) {
   return Layout(tape).run();
 }
 

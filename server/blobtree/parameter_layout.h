@@ -21,5 +21,7 @@ struct ParameterBuffers {
 
 // Never empty buffers: a device binding needs a byte to bind to.
 ParameterBuffers lay_out(const Tape& tape);
+// All but the leaves, which stay empty.
+ParameterBuffers lay_out_operations(const Tape& tape);
 
 }  // namespace isofield::blobtree

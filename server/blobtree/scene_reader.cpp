@@ -16,11 +16,6 @@
 namespace isofield::blobtree {
 namespace {
 
-std::string path_of(int index, const v1::Node& node) {
-  return node.name().empty() ? absl::StrCat("nodes[", index, "]")
-                             : absl::StrCat("nodes[", index, "] '", node.name(), "'");
-}
-
 // Names of nodes, and what "name" or "#i" refers to.
 class References {
  public:
@@ -221,7 +216,7 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
   References references;
   for (std::size_t i = 0; i < count; ++i) {
     Node& node = scene.nodes[i];
-    node.path = path_of(static_cast<int>(i), message.nodes(i));
+    node.path = node_path(i, message.nodes(i));
     if (absl::Status s = references.add(message.nodes(i), i, node.path); !s.ok()) return s;
     if (absl::Status s = read_node(message.nodes(i), custom, node); !s.ok()) return s;
   }

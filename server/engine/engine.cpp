@@ -1,5 +1,6 @@
 #include "engine/engine.h"
 
+#include "blobtree/blend_edit.h"
 #include "blobtree/compiler.h"
 #include "blobtree/scene_reader.h"
 #include "engine/status_macros.h"
@@ -25,6 +26,15 @@ absl::StatusOr<SceneLease> Engine::make_resident(const v1::Scene& scene, const b
   ISOFIELD_ASSIGN_OR_RETURN(const blobtree::Scene valid, blobtree::read_scene(scene, limits_, operators));
   ISOFIELD_ASSIGN_OR_RETURN(blobtree::Tape tape, blobtree::compile(valid));
   return ResidentScene::create(*device_, volumes_, std::move(tape));
+}
+
+absl::StatusOr<SceneLease> Engine::edit(const ResidentScene& before, const v1::Scene& edited,
+                                        const std::vector<std::uint32_t>& nodes,
+                                        const blobtree::OperatorTable& operators) {
+  ISOFIELD_ASSIGN_OR_RETURN(std::optional<blobtree::Tape> tape,
+                            blobtree::edit_blends(before.tape(), edited, nodes, limits_));
+  if (tape) return before.with_operations(*device_, *std::move(tape));
+  return make_resident(edited, operators);
 }
 
 absl::StatusOr<SceneLease> Engine::acquire(std::uint64_t version, const v1::Scene& scene,
@@ -53,8 +63,8 @@ void Engine::drop(std::uint64_t version) {
 
 Engine::Residency Engine::residency() const {
   const std::lock_guard lock(mutex_);
-  Residency r{resident_.size(), 0};
-  for (const auto& [version, scene] : resident_) r.bytes += scene->device_bytes();
+  Residency r{resident_.size(), volumes_.usage().bytes};
+  for (const auto& [version, scene] : resident_) r.bytes += scene->own_bytes();
   return r;
 }
 

@@ -30,6 +30,11 @@ class Engine {
   // scene.proto.
   absl::StatusOr<SceneLease> make_resident(const v1::Scene& scene, const blobtree::OperatorTable& operators = {});
 
+  // The resident form of `edited`, of which only numbers of `nodes` differ from the scene that `before` is of. Where
+  // they are profiles of blends nothing is compiled, and only operators' parameters are uploaded.
+  absl::StatusOr<SceneLease> edit(const ResidentScene& before, const v1::Scene& edited,
+                                  const std::vector<std::uint32_t>& nodes, const blobtree::OperatorTable& operators);
+
   // The resident form of a version of the catalog, made now if it is not there.
   absl::StatusOr<SceneLease> acquire(std::uint64_t version, const v1::Scene& scene,
                                      const blobtree::OperatorTable& operators = {});

@@ -1,7 +1,5 @@
 #include "engine/resident_scene.h"
 
-#include "blobtree/parameter_layout.h"
-#include "engine/session.h"
 #include "engine/status_macros.h"
 
 namespace isofield::engine {
@@ -16,9 +14,9 @@ absl::StatusOr<std::shared_ptr<const ResidentScene>> ResidentScene::create(gpu::
   std::shared_ptr<ResidentScene> scene(new ResidentScene);
   const blobtree::ParameterBuffers parameters = blobtree::lay_out(tape);
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device));
-  ISOFIELD_ASSIGN_OR_RETURN(scene->leaves_, session.upload(std::span(parameters.leaves)));
-  ISOFIELD_ASSIGN_OR_RETURN(scene->operations_, session.upload(std::span(parameters.operations)));
-  ISOFIELD_ASSIGN_OR_RETURN(scene->tables_, session.upload(std::span(parameters.tables)));
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer leaves, session.upload(std::span(parameters.leaves)));
+  scene->leaves_ = std::make_shared<const gpu::Buffer>(std::move(leaves));
+  ISOFIELD_RETURN_IF_ERROR(scene->upload_operations(session, parameters));
   ISOFIELD_RETURN_IF_ERROR(session.run());
   for (const auto& op : tape.volumes) {
     ISOFIELD_ASSIGN_OR_RETURN(VolumeLease volume, volumes.get(*op));
@@ -28,14 +26,32 @@ absl::StatusOr<std::shared_ptr<const ResidentScene>> ResidentScene::create(gpu::
   return scene;
 }
 
+absl::StatusOr<std::shared_ptr<const ResidentScene>> ResidentScene::with_operations(gpu::Device& device,
+                                                                                    blobtree::Tape tape) const {
+  std::shared_ptr<ResidentScene> scene(new ResidentScene);
+  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device));
+  ISOFIELD_RETURN_IF_ERROR(scene->upload_operations(session, blobtree::lay_out_operations(tape)));
+  ISOFIELD_RETURN_IF_ERROR(session.run());
+  scene->leaves_ = leaves_;
+  scene->volumes_ = volumes_;
+  scene->tape_ = std::move(tape);
+  return scene;
+}
+
+absl::Status ResidentScene::upload_operations(Session& session, const blobtree::ParameterBuffers& parameters) {
+  ISOFIELD_ASSIGN_OR_RETURN(operations_, session.upload(std::span(parameters.operations)));
+  ISOFIELD_ASSIGN_OR_RETURN(tables_, session.upload(std::span(parameters.tables)));
+  return absl::OkStatus();
+}
+
 std::uint64_t ResidentScene::device_bytes() const {
-  std::uint64_t bytes = leaves_.size() + operations_.size() + tables_.size();
+  std::uint64_t bytes = own_bytes();
   for (const VolumeLease& volume : volumes_) bytes += volume->bytes();
   return bytes;
 }
 
 gpu::Commands::Bindings ResidentScene::bindings(const gpu::Buffer& code, const gpu::Commands::Bindings& own) const {
-  gpu::Commands::Bindings all{{0, &leaves_}, {1, &operations_}, {2, &tables_}, {3, &code}};
+  gpu::Commands::Bindings all{{0, leaves_.get()}, {1, &operations_}, {2, &tables_}, {3, &code}};
   for (std::uint32_t slot = 0; slot < volumes_.size(); ++slot) {
     all.push_back({kFirstVolumeBinding + slot, &volumes_[slot]->buffer()});
   }

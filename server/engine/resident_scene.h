@@ -7,7 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "blobtree/parameter_layout.h"
 #include "blobtree/tape.h"
+#include "engine/session.h"
 #include "engine/volume_cache.h"
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
@@ -21,18 +23,25 @@ class ResidentScene {
  public:
   static absl::StatusOr<std::shared_ptr<const ResidentScene>> create(gpu::Device& device, VolumeCache& volumes,
                                                                      blobtree::Tape tape);
+  // With other parameters of operators: `tape` is this scene's but for these. Shares the leaves and the volumes.
+  absl::StatusOr<std::shared_ptr<const ResidentScene>> with_operations(gpu::Device& device, blobtree::Tape tape) const;
 
   const blobtree::Tape& tape() const { return tape_; }
   // The bindings of a kernel that runs tapes pruned from this scene's, which lie in `code`, with its own ones.
   gpu::Commands::Bindings bindings(const gpu::Buffer& code, const gpu::Commands::Bindings& own) const;
   // Volumes that it shares with others count whole.
   std::uint64_t device_bytes() const;
+  // Without volumes.
+  std::uint64_t own_bytes() const { return leaves_->size() + operations_.size() + tables_.size(); }
+  bool shares_leaves_with(const ResidentScene& other) const { return leaves_ == other.leaves_; }
 
  private:
   ResidentScene() = default;
+  absl::Status upload_operations(Session& session, const blobtree::ParameterBuffers& parameters);
 
   blobtree::Tape tape_;
-  gpu::Buffer leaves_, operations_, tables_;
+  std::shared_ptr<const gpu::Buffer> leaves_;
+  gpu::Buffer operations_, tables_;
   std::vector<VolumeLease> volumes_;  // by slot
 };
 

@@ -32,8 +32,8 @@ struct Grading {
   double slope(double z) const;
 };
 
-// One record (e, 0, 0, 0), then kSilhouetteCells cells; of a silhouette that is not symmetric the same again for the second
-// half.
+// One record (e, 0, 0, 0), then kSilhouetteCells cells; of a silhouette that is not symmetric the same again for the
+// second half.
 ProfileTable silhouette_table(const Silhouette& silhouette);
 // tan(theta(alpha)): the operator needs nothing else of theta.
 ProfileTable opening_table(const Opening& opening);

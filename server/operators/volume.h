@@ -1,6 +1,6 @@
 // The `volume` representation of an operator, [G] section 4.3: values and partials at n^3 nodes over f1 and f2 within
-// [0, 1] and theta within [0, pi/4], interpolated trilinearly; in double precision. Cells on the diagonal f1 = f2, where
-// max and folds break, are two prisms, linear on either side: the largest error is then 2.5 times less at 16^3.
+// [0, 1] and theta within [0, pi/4], interpolated trilinearly; in double precision. Cells on the diagonal f1 = f2,
+// where max and folds break, are two prisms, linear on either side: the largest error is then 2.5 times less at 16^3.
 #pragma once
 
 #include <functional>

@@ -21,15 +21,13 @@ void fill_summary(const catalog::Entry& entry, const engine::ResidentScene& scen
 
 }  // namespace
 
-absl::Status SceneService::store(const std::string& name, const v1::Scene& scene,
+absl::Status SceneService::store(const std::string& name, v1::Scene scene, const engine::SceneLease& lease,
                                  std::shared_ptr<const blobtree::OperatorTable> operators,
                                  const catalog::Condition& condition, v1::SceneSummary& summary) {
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease lease, engine_.make_resident(scene, *operators));
-  v1::Scene stored = scene;
   catalog::Catalog::Put put;
   {
     const std::lock_guard lock(residency_mutex_);
-    ISOFIELD_ASSIGN_OR_RETURN(put, catalog_.put(name, std::move(stored), std::move(operators), condition));
+    ISOFIELD_ASSIGN_OR_RETURN(put, catalog_.put(name, std::move(scene), std::move(operators), condition));
     engine_.keep(put.entry.version, lease);
     if (put.replaced_version != 0) engine_.drop(put.replaced_version);
   }
@@ -51,8 +49,10 @@ grpc::Status SceneService::PutScene(grpc::ServerContext*, const v1::PutSceneRequ
   if (request->expect_case() == v1::PutSceneRequest::kVersion) condition.version = request->version();
   auto operators = operators_.table_for(request->scene());
   if (!operators.ok()) return to_grpc(operators.status());
+  const absl::StatusOr<engine::SceneLease> lease = engine_.make_resident(request->scene(), **operators);
+  if (!lease.ok()) return to_grpc(lease.status());
   return to_grpc(
-      store(request->name(), request->scene(), *std::move(operators), condition, *response->mutable_summary()));
+      store(request->name(), request->scene(), *lease, *std::move(operators), condition, *response->mutable_summary()));
 }
 
 grpc::Status SceneService::GetScene(grpc::ServerContext*, const v1::GetSceneRequest* request,
@@ -89,11 +89,14 @@ grpc::Status SceneService::EditParameters(grpc::ServerContext*, const v1::EditPa
     }
     ISOFIELD_ASSIGN_OR_RETURN(const catalog::Entry entry, catalog_.get(request->name()));
     v1::Scene scene = *entry.scene;
-    ISOFIELD_RETURN_IF_ERROR(blobtree::apply_edits(edits, scene));
+    ISOFIELD_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> nodes, blobtree::apply_edits(edits, scene));
+    ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease before,
+                              engine_.acquire(entry.version, *entry.scene, *entry.operators));
+    ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease lease, engine_.edit(*before, scene, nodes, *entry.operators));
     // Against the version that was read, so that two editors at once lose nothing.
     catalog::Condition condition;
     condition.version = request->expected_version() != 0 ? request->expected_version() : entry.version;
-    return store(request->name(), scene, entry.operators, condition, *response->mutable_summary());
+    return store(request->name(), std::move(scene), lease, entry.operators, condition, *response->mutable_summary());
   };
   absl::Status status = edit();
   // Without a version to insist on, an edit that lost a race applies to what won.

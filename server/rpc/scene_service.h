@@ -23,7 +23,8 @@ class SceneService final : public v1::SceneService::Service {
                               v1::EditParametersResponse*) override;
 
  private:
-  absl::Status store(const std::string& name, const v1::Scene& scene,
+  // `lease`: the scene's resident form.
+  absl::Status store(const std::string& name, v1::Scene scene, const engine::SceneLease& lease,
                      std::shared_ptr<const blobtree::OperatorTable> operators, const catalog::Condition& condition,
                      v1::SceneSummary& summary);
   absl::Status summarise(const catalog::Entry& entry, v1::SceneSummary& summary);

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <iostream>
 
+#include "blobtree/blend_edit.h"
+#include "blobtree/parameter_edit.h"
 #include "engine/field_evaluator.h"
 #include "gpu/gpu_environment.h"
 #include "reference/evaluator.h"
@@ -141,6 +143,36 @@ TEST(FieldOnDevice, IsFiniteForDegenerateBlends) {
       for (const float v : evaluate(*scene, xyz, Quantity::kValueAndGradient)) ASSERT_TRUE(std::isfinite(v));
     }
   }
+}
+
+// [G] Figs. 18 and 19: an opening is animated, nothing else is made anew.
+TEST(FieldOnDevice, EditedOpeningsShareTheLeaves) {
+  v1::Scene scene = test_support::scene_of_nodes(R"([
+    {"name": "a", "sphere": {"radius": 0.5, "range": 0.5}},
+    {"name": "b", "sphere": {"center": [0.7, 0, 0], "radius": 0.5, "range": 0.5}},
+    {"name": "c", "segment": {"a": [0, 0, 0], "b": [0, 1, 0], "radius_a": 0.3, "radius_b": 0.3, "range": 0.6}},
+    {"name": "inner", "gradient": {"children": ["a", "b"]}},
+    {"name": "outer", "gradient": {"children": ["inner", "c"], "silhouette": {"kind": "BULGE", "k": 0.5}}}])");
+  const engine::SceneLease before = resident(scene);
+  const std::vector<blobtree::ParameterEdit> edits{{"inner", "opening.theta1", {20}}, {"outer", "silhouette.k", {0.9}}};
+  scene.mutable_nodes(3)->mutable_gradient()->mutable_opening()->set_preset(v1::Opening::CAMEL);
+  const auto nodes = blobtree::apply_edits(edits, scene);
+  ASSERT_TRUE(nodes.ok()) << nodes.status();
+  auto tape = blobtree::edit_blends(before->tape(), scene, *nodes, {});
+  ASSERT_TRUE(tape.ok() && tape->has_value()) << tape.status();
+  const auto after = before->with_operations(device(), **std::move(tape));
+  ASSERT_TRUE(after.ok()) << after.status();
+  EXPECT_TRUE((*after)->shares_leaves_with(*before));
+  // The same bits as the edited scene made from nothing.
+  const std::vector<float> xyz = random_points(31, 2000, 1.5);
+  const std::vector<float> edited = evaluate(**after, xyz, Quantity::kValueAndGradient);
+  EXPECT_EQ(edited, evaluate(*resident(scene), xyz, Quantity::kValueAndGradient));
+  EXPECT_NE(edited, evaluate(*before, xyz, Quantity::kValueAndGradient));
+  // What is more than a profile is compiled; what is refused is refused.
+  const auto moved = blobtree::apply_edits({{"a", "radius", {0.4}}}, scene);
+  EXPECT_FALSE(blobtree::edit_blends((*after)->tape(), scene, *moved, {})->has_value());
+  const auto wrong = blobtree::apply_edits({{"inner", "opening.theta1", {46}}}, scene);
+  EXPECT_FALSE(blobtree::edit_blends((*after)->tape(), scene, *wrong, {}).ok());
 }
 
 TEST(FieldOnDevice, TakesDeepTrees) {

@@ -1,0 +1,56 @@
+#include "blobtree/blend_edit.h"
+
+#include <absl/container/flat_hash_map.h>
+
+#include <memory>
+#include <set>
+
+#include "blobtree/node_reader.h"
+#include "blobtree/operation.h"
+
+namespace isofield::blobtree {
+namespace {
+
+// Tables that the tape takes on the device, as scene_reader counts them.
+std::size_t profiles(const Tape& tape) {
+  std::set<operators::Opening> openings;
+  std::set<operators::Silhouette> silhouettes;
+  std::set<operators::SampledCurve> curves;
+  for (const Operation& o : tape.operations) {
+    if (!o.what) continue;
+    if (o.what->is_steered()) openings.insert(o.what->opening);
+    if (o.what->kind == operators::Kind::kGradient) silhouettes.insert(o.what->silhouette);
+    if (o.what->kind == operators::Kind::kFunctional) curves.insert(o.what->curve);
+  }
+  return openings.size() + silhouettes.size() + curves.size();
+}
+
+}  // namespace
+
+absl::StatusOr<std::optional<Tape>> edit_blends(const Tape& tape, const v1::Scene& edited,
+                                                const std::vector<std::uint32_t>& nodes, const SceneLimits& limits) {
+  absl::flat_hash_map<std::uint32_t, std::shared_ptr<const operators::Operator>> changed;
+  for (const std::uint32_t index : nodes) {
+    const v1::Node& message = edited.nodes(static_cast<int>(index));
+    if (!message.has_gradient() || message.gradient().volume() != 0) return std::nullopt;
+    Node node;
+    node.path = node_path(index, message);
+    if (absl::Status s = read_node(message, {}, node); !s.ok()) return s;
+    changed.emplace(index, node.op);
+  }
+  Tape result = tape;
+  SilhouetteBounds bounds;
+  for (Operation& o : result.operations) {
+    const auto it = changed.find(o.node);
+    if (it == changed.end()) continue;
+    Operation fresh = operation_of(it->second, operators::Law::kPositive, 2, bounds);
+    if (fresh.op != o.op || fresh.what->form != o.what->form) return std::nullopt;
+    o.what = std::move(fresh.what);
+    o.silhouette_bound = fresh.silhouette_bound;
+  }
+  // At the limit the whole scene is to be judged.
+  if (profiles(result) > limits.max_profiles) return std::nullopt;
+  return result;
+}
+
+}  // namespace isofield::blobtree
