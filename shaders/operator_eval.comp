@@ -69,16 +69,14 @@ Field result(uint row, uint slot) {
   Field r = zero_field();
   if (is_btk || is_operator(op, OPERATOR_SUPERELLIPTIC)) {
     Field x[MAX_OPERANDS];
-    uint form = mode & 3u;
-    for (uint k = 0u; k < uint(MAX_OPERANDS); ++k) {
-      x[k] = zero_field();
-      if (k < operands) {
-        x[k] = operand(arguments[at + k], k - slot);
-        bool is_turned = form == FORM_INTERSECTION || (form == FORM_DIFFERENCE && k == 0u);
-        x[k] = select_field(x[k], linear(x[k], -1.0, 0.0), is_turned);
-      }
+    for (uint j = 0u; j < uint(MAX_OPERANDS); ++j) {
+      x[j] = zero_field();
+      uint k = operands - 1u - j;
+      if (j < operands) x[j] = operand(arguments[at + k], k - slot);
     }
-    uint mask = (1u << operands) - 1u;
+    uint mask = (1u << operands) - 1u, form = mode & 3u;
+    if (form != FORM_UNION) turn_operands(x, mask, form);
+    angle.ratio = reciprocal(angle.ratio);  // that of x[0] over x[1]
     if (is_btk) r = blend_btk(x, mask, record, angle);
     else r = blend_superelliptic(x, mask, record, angle);
     r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);

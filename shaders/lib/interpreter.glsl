@@ -73,25 +73,19 @@ Field evaluate(vec3 point, uint begin, uint count) {
       if (is_operator(op, OPERATOR_SOFTEN)) r = softened(acc, operations[i.z].x);
       bool is_btk = is_operator(op, OPERATOR_BTK);
       if (is_btk || is_operator(op, OPERATOR_SUPERELLIPTIC)) {
-        // The last operand is the accumulator, those before wait below it.
-        Field x[MAX_OPERANDS];
+        // The last operand is the accumulator, those before wait below it in the order of the registers.
+        Field x[MAX_OPERANDS] = Field[MAX_OPERANDS](acc, s0u, s1u, s2u, s3u, s4u, s5u, s6u, s7u, s8u, s9u, s10u, s11u,
+                                                    s12u, s13u, s14u);
         uint form = mode & 3u;
-        for (int k = MAX_OPERANDS - 1; k >= 0; --k) {
-          x[k] = zero_field();
-          if (uint(k) < ARITY && (i.y >> k & 1u) != 0u) {
-            bool is_turned = has_modes() && (form == FORM_INTERSECTION || (form == FORM_DIFFERENCE && k == 0u));
-            x[k] = select_field(acc, linear(acc, -1.0, 0.0), is_turned);
-            if ((i.y & ((1u << k) - 1u)) != 0u) {
-              acc = s0u;
-              FOR_EACH_REGISTER_DOWN;
-            }
-          }
-        }
+        if (has_modes() && form != FORM_UNION) turn_operands(x, i.y, form);
         Angle angle = no_angle();
         if (may_follow_angle()) angle = angle_between(x[0], x[1]);
         if (is_btk) r = blend_btk(x, i.y, i.z, angle);
         else r = blend_superelliptic(x, i.y, i.z, angle);
         if (has_modes()) r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
+        for (int k = bitCount(i.y); k > 1; --k) {
+          FOR_EACH_REGISTER_DOWN;
+        }
       }
     }
     acc = r;

@@ -163,31 +163,51 @@ Field blend_bt2(Field a, Field b, uint record, Angle angle) {
   return join_binary(a, b, bt2(dual_of(a), dual_of(b), reach, dual(head.z), inverse_weights));
 }
 
-// The joint result of an n-ary operator from its partials.
+// N-ary operators take the operands whose bits `mask` has, the last one first: x[0] belongs to the highest bit. What is
+// beyond is of no operand.
+
+// The place of the record of the operand at x[j], which takes its bit away.
+uint take_operand(inout uint mask, uint record, out bool is_there) {
+  is_there = mask != 0u;
+  uint bit = is_there ? uint(findMSB(mask)) : 0u;
+  mask &= ~(1u << bit);
+  return record + 1u + bit;
+}
+
+// What a form makes of operands before their union.
+void turn_operands(inout Field x[MAX_OPERANDS], uint mask, uint form) {
+  for (uint j = 0u; j < ARITY; ++j) {
+    bool is_there;
+    uint bit = take_operand(mask, 0u, is_there) - 1u;
+    if (form == FORM_INTERSECTION || bit == 0u) x[j] = linear(x[j], -1.0, 0.0);
+  }
+}
+
+// The joint result from its partials, which are 0 where there is no operand.
 Field join_operands(Field x[MAX_OPERANDS], Dual g, Dual partials[MAX_OPERANDS]) {
   Field r = zero_field();
   r.f = value_of(g);
 #ifdef WITH_GRADIENT
   r.g = gradient_of(g);
 #endif
-  for (uint i = 0u; i < ARITY; ++i) {
-    float w = value_of(partials[i]);
-    r.d += w * x[i].d;
+  for (uint j = 0u; j < ARITY; ++j) {
+    float w = value_of(partials[j]);
+    r.d += w * x[j].d;
 #ifdef WITH_GRADIENT
-    if (is_steered()) r.j += w * x[i].j + outerProduct(x[i].d, gradient_of(partials[i]));
+    if (is_steered()) r.j += w * x[j].j + outerProduct(x[j].d, gradient_of(partials[j]));
 #endif
   }
   return r;
 }
 
-// [H] eq. 5 of the operands in `mask`; those that are absent are zero fields.
+// [H] eq. 5.
 Field blend_btk(Field x[MAX_OPERANDS], uint mask, uint record, Angle angle) {
   vec4 head = operations[record];
   Term terms[MAX_OPERANDS];
-  for (uint i = 0u; i < ARITY; ++i) {
-    bool is_there = (mask >> i & 1u) != 0u;
-    vec4 t = operations[record + 1u + (is_there ? i : 0u)];
-    terms[i] = Term(dual_of(x[i]), dual(t.x), dual(is_there ? t.w : 0.0), t.z);
+  for (uint j = 0u; j < ARITY; ++j) {
+    bool is_there;
+    vec4 t = operations[take_operand(mask, record, is_there)];
+    terms[j] = Term(dual_of(x[j]), dual(t.x), dual(is_there ? t.w : 0.0), t.z);
   }
   if (may_follow_angle() && head.y >= 0.0) {
     Reach2 reach = Reach2(terms[0].range, terms[1].range, reciprocal(terms[0].inverse_weight),
@@ -207,14 +227,14 @@ Field blend_superelliptic(Field x[MAX_OPERANDS], uint mask, uint record, Angle a
   bool by_angle = may_follow_angle() && head.y >= 0.0;
   Dual g = dual(1.0);
   Dual partials[MAX_OPERANDS];
-  for (uint i = 0u; i < ARITY; ++i) {
-    bool is_there = (mask >> i & 1u) != 0u;
-    float range = operations[record + 1u + (is_there ? i : 0u)].w;
+  for (uint j = 0u; j < ARITY; ++j) {
+    bool is_there;
+    float range = operations[take_operand(mask, record, is_there)].w;
     Dual r = dual(range);
     if (by_angle) r = angular_range(range, angle.cosine, head.y);
-    Bracket b = superelliptic_bracket(dual_of(x[i]), r, head.x);
+    Bracket b = superelliptic_bracket(dual_of(x[j]), r, head.x);
     g = g - select_dual(dual(0.0), b.value, is_there);
-    partials[i] = select_dual(dual(0.0), b.fall, is_there);
+    partials[j] = select_dual(dual(0.0), b.fall, is_there);
   }
   return join_operands(x, g, partials);
 }

@@ -79,25 +79,29 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
     if (!(next < h)) break;
     h = next;
   }
-  Dual root = dual(h);
-  Dual total;
-  for (int pass = 0; pass < 2; ++pass) {
-    Dual excess = dual(-1.0);
-    total = dual(0.0);
-    for (uint i = 0u; i < ARITY; ++i) {
-      bool is_there = value_of(terms[i].range) > 0.0;
-      Dual range = select_dual(dual(1.0), terms[i].range, is_there);
-      Dual inverse_r = reciprocal(range), m = reciprocal(terms[i].inverse_weight);
-      Dual t = dual(1.0) + times(times(m, root) - terms[i].x, inverse_r);
-      bool is_active = is_there && value_of(t) > 0.0;
-      t = select_dual(dual(1.0), t, is_active);
-      Dual q = terms[i].power * times(power(t, terms[i].power - 1.0), inverse_r);
-      q = select_dual(dual(0.0), q, is_active);
-      excess = excess + select_dual(dual(0.0), power(t, terms[i].power), is_active);
-      total = total + times(q, m);
-      partials[i] = q;
-    }
-    if (pass == 0) root = root - excess * (1.0 / max(value_of(total), 1e-30));
+  // A Newton step in duals gives the root its derivatives, ...
+  Dual excess = dual(-1.0);
+  float slope = 0.0;
+  for (uint i = 0u; i < ARITY; ++i) {
+    bool is_there = value_of(terms[i].range) > 0.0;
+    Dual inverse_r = reciprocal(select_dual(dual(1.0), terms[i].range, is_there)), m = reciprocal(terms[i].inverse_weight);
+    Dual t = dual(1.0) + times(h * m - terms[i].x, inverse_r);
+    bool is_active = is_there && value_of(t) > 0.0;
+    float q = is_active ? exp2((terms[i].power - 1.0) * log2(value_of(t))) : 0.0;
+    excess += chain(t, q * max(value_of(t), 0.0), terms[i].power * q);
+    slope += terms[i].power * q * value_of(m) * value_of(inverse_r);
+  }
+  Dual root = dual(h) - excess * (1.0 / max(slope, 1e-30));
+  // ... and a pass with these the partials theirs.
+  Dual total = dual(0.0);
+  for (uint i = 0u; i < ARITY; ++i) {
+    bool is_there = value_of(terms[i].range) > 0.0;
+    Dual inverse_r = reciprocal(select_dual(dual(1.0), terms[i].range, is_there)), m = reciprocal(terms[i].inverse_weight);
+    Dual t = dual(1.0) + times(times(m, root) - terms[i].x, inverse_r);
+    bool is_active = is_there && value_of(t) > 0.0;
+    t = select_dual(dual(1.0), t, is_active);
+    partials[i] = select_dual(dual(0.0), terms[i].power * times(power(t, terms[i].power - 1.0), inverse_r), is_active);
+    total += times(partials[i], m);
   }
   Dual inverse = reciprocal(select_dual(dual(1.0), total, value_of(total) > 1e-30));
   Dual single = dual(0.0);
