@@ -90,16 +90,24 @@ Bounds kept(const operators::Operator& op, std::size_t operand, const Bounds& b)
 void join_signed(Bounds& so_far, const operators::Operator& op, std::size_t operand, const Bounds& next) {
   const bool is_difference = op.kind == Kind::kDifference || op.form == Form::kDifference;
   const bool is_intersection = op.kind == Kind::kMax || op.form == Form::kIntersection;
+  const bool is_n_ary = op.kind == Kind::kBtk || op.kind == Kind::kSuperelliptic;
+  // A fold applies the operator to what it has so far and to the next.
+  if (operand == 0) {
+    so_far = next;
+    if (!is_n_ary) return;
+  }
+  const std::size_t place = is_n_ary ? operand : 1;
   if (is_difference || is_intersection) {
     // Any operand of an intersection will do.
-    if (operand == 0) so_far = kept(op, operand, next);
+    if (!is_n_ary || operand == 0) so_far = kept(op, 0, so_far);
     return;
   }
-  const Bounds b = reached(op, operand, next);
-  if (operand == 0) {
+  const Bounds b = reached(op, place, next);
+  if (is_n_ary && operand == 0) {
     so_far = b;
     return;
   }
+  if (!is_n_ary) so_far = reached(op, 0, so_far);
   so_far.box.add(b.box);
   so_far.growth = std::max(so_far.growth, b.growth);
   so_far.limit = std::min(so_far.limit, b.limit);

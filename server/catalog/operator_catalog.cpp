@@ -32,6 +32,14 @@ absl::StatusOr<OperatorEntry> OperatorCatalog::put(const std::string& name, v1::
     return absl::ResourceExhaustedError(absl::StrCat("the catalog holds ", operators_.size(),
                                                      " custom operators, all that are admitted; delete one first"));
   }
+  const auto before = operators_.find(name);
+  const std::uint64_t bytes =
+      bytes_ + stored->ByteSizeLong() - (before == operators_.end() ? 0 : before->second.message->ByteSizeLong());
+  if (bytes > kMaxOperatorBytes) {
+    return absl::ResourceExhaustedError(absl::StrCat("custom operators would take ", bytes, " bytes, expected at most ",
+                                                     kMaxOperatorBytes, "; delete one first"));
+  }
+  bytes_ = bytes;
   return operators_[name] = {name, ++last_version_, std::move(stored), std::move(op)};
 }
 
@@ -55,6 +63,7 @@ absl::Status OperatorCatalog::remove(const std::string& name) {
   const auto it = operators_.find(name);
   if (it == operators_.end()) return not_found(name);
   last = std::move(it->second);
+  bytes_ -= last.message->ByteSizeLong();
   operators_.erase(it);
   return absl::OkStatus();
 }

@@ -49,6 +49,10 @@ class OperatorCatalog {
   mutable std::mutex mutex_;
   absl::btree_map<std::string, OperatorEntry> operators_;
   std::uint64_t last_version_ = 0;
+  std::uint64_t bytes_ = 0;  // of all messages
 };
+
+// Of all custom operators: samples are what makes them large.
+inline constexpr std::uint64_t kMaxOperatorBytes = std::uint64_t{1} << 30;
 
 }  // namespace isofield::catalog

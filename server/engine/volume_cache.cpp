@@ -130,6 +130,16 @@ absl::StatusOr<VolumeLease> VolumeCache::get(const Operator& op) {
   return volume;
 }
 
+std::uint64_t VolumeCache::resident_bytes(const Operator& op) const {
+  const absl::StatusOr<Key> key = key_of(op);
+  if (!key.ok()) return 0;
+  const std::lock_guard lock(mutex_);
+  const auto place = places_.find(*key);
+  if (place == places_.end()) return 0;
+  const VolumeLease volume = place->second->lease();
+  return volume ? volume->bytes() : 0;
+}
+
 VolumeCache::Usage VolumeCache::usage() const {
   const std::lock_guard lock(mutex_);
   Usage usage;

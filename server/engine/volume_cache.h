@@ -47,6 +47,9 @@ class VolumeCache {
   // RESOURCE_EXHAUSTED: no memory; a later call tries again.
   absl::StatusOr<VolumeLease> get(const operators::Operator& op);
 
+  // Bytes of an operator's volume where somebody holds it, or 0.
+  std::uint64_t resident_bytes(const operators::Operator& op) const;
+
   struct Usage {
     std::uint64_t volumes = 0, bytes = 0;
   };

@@ -25,8 +25,10 @@ void fill_summary(const std::string& name, std::uint64_t version, const v1::Oper
   summary.set_description(message.description());
 }
 
-void fill_summary(const catalog::OperatorEntry& entry, v1::OperatorSummary& summary) {
+void fill_summary(const catalog::OperatorEntry& entry, const engine::VolumeCache& volumes,
+                  v1::OperatorSummary& summary) {
   fill_summary(entry.name, entry.version, *entry.message, summary);
+  summary.set_device_bytes(volumes.resident_bytes(*entry.op));
 }
 
 }  // namespace
@@ -35,7 +37,7 @@ absl::Status OperatorService::put(const v1::PutOperatorRequest& request, v1::Put
   ISOFIELD_ASSIGN_OR_RETURN(auto op, blobtree::read_operator(request.operator_()));
   ISOFIELD_ASSIGN_OR_RETURN(const catalog::OperatorEntry entry,
                             operators_.put(request.name(), request.operator_(), std::move(op)));
-  fill_summary(entry, *response.mutable_summary());
+  fill_summary(entry, engine_.volumes(), *response.mutable_summary());
   return absl::OkStatus();
 }
 
@@ -53,7 +55,7 @@ grpc::Status OperatorService::GetOperator(grpc::ServerContext*, const v1::GetOpe
   }
   const absl::StatusOr<catalog::OperatorEntry> entry = operators_.get(request->name());
   if (!entry.ok()) return to_grpc(entry.status());
-  fill_summary(*entry, *response->mutable_summary());
+  fill_summary(*entry, engine_.volumes(), *response->mutable_summary());
   *response->mutable_operator_() = *entry->message;
   return grpc::Status::OK;
 }
@@ -63,7 +65,8 @@ grpc::Status OperatorService::ListOperators(grpc::ServerContext*, const v1::List
   for (const std::string& name : catalog::built_in_names()) {
     fill_summary(name, 0, *catalog::built_in_operator(name), *response->add_operators());
   }
-  for (const catalog::OperatorEntry& entry : operators_.list()) fill_summary(entry, *response->add_operators());
+  for (const catalog::OperatorEntry& entry : operators_.list())
+    fill_summary(entry, engine_.volumes(), *response->add_operators());
   return grpc::Status::OK;
 }
 
