@@ -145,6 +145,35 @@ TEST(FieldOnDevice, IsFiniteForDegenerateBlends) {
   }
 }
 
+TEST(FieldOnDevice, BlendsThroughVolumesAsTheReferenceDoes) {
+  const std::string nodes = R"([
+    {"name": "a", "sphere": {"radius": 0.5, "range": 0.5}},
+    {"name": "b", "sphere": {"center": [0.6, 0.1, 0], "radius": 0.5, "range": 0.5}},
+    {"name": "c", "segment": {"a": [0, -0.6, 0.1], "b": [0, 0.8, 0], "radius_a": 0.3, "radius_b": 0.2, "range": 0.6}},
+    {"name": "sum", "sum": {"children": ["a", "b"]}},
+    {"name": "joint", "gradient": {"children": ["sum", "c"], "volume": 16}},
+    {"name": "cut", "gradient": {"children": ["joint", "b"], "volume": 32, "form": "DIFFERENCE",
+             "silhouette": {"kind": "BULGE", "k": 0.5}, "opening": {"preset": "ORGANIC"}}}])";
+  const v1::Scene scene = test_support::scene_of_nodes(nodes);
+  const reference::Evaluator exact(test_support::read_or_die(scene));
+  const engine::SceneLease lease = resident(scene);
+  EXPECT_EQ(lease->device_bytes() - lease->own_bytes(), 16u * (16 * 16 * 16 + 32 * 32 * 32));
+  const std::vector<float> xyz = random_points(77, 400, 1.0);
+  const std::vector<float> results = evaluate(*lease, xyz, Quantity::kValueAndGradient);
+  int compared = 0;
+  for (std::size_t i = 0; i < 400; ++i) {
+    const blobtree::dvec3 p{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+    const reference::Sample s = exact.evaluate(p);
+    ASSERT_NEAR(results[4 * i], s.value, 2e-5) << i;
+    // A gradient that is interpolated breaks at the faces of cells.
+    if (test_support::gradient_variation(exact, p, 2e-6) > 5e-4) continue;
+    ++compared;
+    const blobtree::dvec3 g{results[4 * i + 1], results[4 * i + 2], results[4 * i + 3]};
+    ASSERT_LE(length(g - s.gradient), 2e-3 * std::max(1.0, length(s.gradient))) << i;
+  }
+  EXPECT_GT(compared, 200);
+}
+
 // [G] Figs. 18 and 19: an opening is animated, nothing else is made anew.
 TEST(FieldOnDevice, EditedOpeningsShareTheLeaves) {
   v1::Scene scene = test_support::scene_of_nodes(R"([

@@ -173,6 +173,24 @@ TEST(OperatorReader, MixedLawsAreRefusedWithThePathOfTheNode) {
                   .ok());
 }
 
+TEST(OperatorReader, ASceneUsesFourVolumesAtMost) {
+  const auto blend = [](int i, const char* volume) {
+    return absl::StrCat(R"({"name": "v)", i, R"(", "gradient": {"children": ["p", "p"], "volume": )", volume, "}},");
+  };
+  std::string nodes = R"([{"name": "p", "sphere": {"radius": 1, "range": 1}},)";
+  int i = 0;
+  for (const char* volume : {"16", "32", "64", "128", "16"}) nodes += blend(i++, volume);
+  const std::string sum = R"({"sum": {"children": ["v0", "v1"]}}])";
+  EXPECT_TRUE(read_scene(scene_of_nodes(nodes + sum)).ok());  // equal ones are one
+  nodes += blend(i, R"(16, "silhouette": {"kind": "BULGE", "k": 0.5})");
+  const auto scene = read_scene(scene_of_nodes(nodes + sum));
+  ASSERT_FALSE(scene.ok());
+  EXPECT_NE(scene.status().message().find("nodes[6] 'v5'.volume: more than 4"), std::string::npos) << scene.status();
+  EXPECT_FALSE(read_scene(scene_of_nodes(R"([{"name": "p", "sphere": {"radius": 1, "range": 1}},
+      {"gradient": {"children": ["p", "p"], "volume": 17}}])"))
+                   .ok());
+}
+
 TEST(OperatorReader, CustomNodesTakeTheOperatorOfTheTable) {
   v1::Operator message;
   message.mutable_ricci()->set_exponent(3);
