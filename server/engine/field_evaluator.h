@@ -22,14 +22,17 @@ class FieldEvaluator {
  public:
   FieldEvaluator(gpu::Device& device, KernelCache& kernels) : device_(device), kernels_(kernels) {}
 
+  // Asked between submissions; true ends the work with CANCELLED.
+  using Cancelled = std::function<bool()>;
+
   // xyz: 3 finite numbers a point; out: components(quantity) numbers a point.
-  absl::Status evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,
-                        std::span<float> out);
+  absl::Status evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                        const Cancelled& cancelled = {});
 
   // The lattice's points with k from first_layer (a multiple of kBrickCells) to the end of `out`, which holds whole
   // layers, x fastest. lattice.cells counts the points.
   absl::Status evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice, std::uint32_t first_layer,
-                               Quantity quantity, std::span<float> out);
+                               Quantity quantity, std::span<float> out, const Cancelled& cancelled = {});
 
  private:
   gpu::Device& device_;

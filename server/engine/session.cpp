@@ -45,6 +45,15 @@ absl::Status Session::download_bytes(const Buffer& buffer, std::span<std::byte> 
   return absl::OkStatus();
 }
 
+absl::Status Session::flush() {
+  if (absl::Status s = commands_.submit(); !s.ok()) return s;
+  if (absl::Status s = commands_.wait(); !s.ok()) return s;
+  absl::StatusOr<gpu::Commands> commands = gpu::Commands::begin(*device_);
+  if (!commands.ok()) return commands.status();
+  commands_ = *std::move(commands);
+  return absl::OkStatus();
+}
+
 absl::Status Session::run() {
   if (absl::Status s = commands_.submit(); !s.ok()) return s;
   if (absl::Status s = commands_.wait(); !s.ok()) return s;

@@ -35,6 +35,8 @@ class Session {
   absl::Status download(const gpu::Buffer& buffer, std::span<T> out) {
     return download_bytes(buffer, std::as_writable_bytes(out));
   }
+  // Submits what is recorded, waits for it, and goes on: others' work may run in between.
+  absl::Status flush();
   // Submits, waits, and carries out the downloads. The session is over.
   absl::Status run();
 

@@ -82,25 +82,26 @@ absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& re
 
 }  // namespace
 
-absl::Status FieldService::evaluate(const engine::ResidentScene& scene, const v1::Tensor& points,
-                                    engine::Quantity quantity, v1::EvaluateResponse& response) {
+absl::Status FieldService::evaluate(const grpc::ServerContext& context, const engine::ResidentScene& scene,
+                                    const v1::Tensor& points, engine::Quantity quantity,
+                                    v1::EvaluateResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray array, PointArray::read(points, limits_.max_points_per_message));
   const std::span<float> out =
       make_float_tensor({array.size(), engine::components(quantity)}, *response.mutable_result());
-  return engine_.fields().evaluate(scene, array.xyz(), quantity, out);
+  return engine_.fields().evaluate(scene, array.xyz(), quantity, out, [&] { return context.IsCancelled(); });
 }
 
-grpc::Status FieldService::Evaluate(grpc::ServerContext*, const v1::EvaluateRequest* request,
+grpc::Status FieldService::Evaluate(grpc::ServerContext* context, const v1::EvaluateRequest* request,
                                     v1::EvaluateResponse* response) {
   const absl::StatusOr<engine::Quantity> quantity = read_quantity(request->quantity());
   if (!quantity.ok()) return to_grpc(quantity.status());
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
-  return to_grpc(evaluate(*leased->scene, request->points(), *quantity, *response));
+  return to_grpc(evaluate(*context, *leased->scene, request->points(), *quantity, *response));
 }
 
 grpc::Status FieldService::EvaluateStream(
-    grpc::ServerContext*, grpc::ServerReaderWriter<v1::EvaluateResponse, v1::EvaluateStreamRequest>* stream) {
+    grpc::ServerContext* context, grpc::ServerReaderWriter<v1::EvaluateResponse, v1::EvaluateStreamRequest>* stream) {
   v1::EvaluateStreamRequest request;
   if (!stream->Read(&request)) {
     return {grpc::StatusCode::INVALID_ARGUMENT, "the stream is empty: expected a first message that states the scene"};
@@ -118,7 +119,7 @@ grpc::Status FieldService::EvaluateStream(
     is_first = false;
     if (!request.has_points()) continue;
     v1::EvaluateResponse response;
-    if (const absl::Status s = evaluate(*leased->scene, request.points(), *quantity, response); !s.ok()) {
+    if (const absl::Status s = evaluate(*context, *leased->scene, request.points(), *quantity, response); !s.ok()) {
       return to_grpc(absl::Status(s.code(), absl::StrCat("after ", before, " points: ", s.message())));
     }
     before += response.result().shape(0);
@@ -156,7 +157,8 @@ grpc::Status FieldService::EvaluateGrid(grpc::ServerContext* context, const v1::
       if (at == 0) {
         if (part < layers) several.resize(layers * layer * width);
         const absl::Status s = engine_.fields().evaluate_layers(*leased->scene, *lattice, k, *quantity,
-                                                                part < layers ? std::span(several) : out);
+                                                                part < layers ? std::span(several) : out,
+                                                                [&] { return context->IsCancelled(); });
         if (!s.ok()) return to_grpc(s);
       }
       if (part < layers) std::copy_n(several.begin() + at * layer * width, out.size(), out.begin());

@@ -20,8 +20,8 @@ class FieldService final : public v1::FieldService::Service {
                             grpc::ServerWriter<v1::EvaluateGridResponse>*) override;
 
  private:
-  absl::Status evaluate(const engine::ResidentScene& scene, const v1::Tensor& points, engine::Quantity quantity,
-                        v1::EvaluateResponse& response);
+  absl::Status evaluate(const grpc::ServerContext& context, const engine::ResidentScene& scene,
+                        const v1::Tensor& points, engine::Quantity quantity, v1::EvaluateResponse& response);
 
   const SceneSource& scenes_;
   engine::Engine& engine_;

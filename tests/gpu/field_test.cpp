@@ -204,6 +204,36 @@ TEST(FieldOnDevice, EditedOpeningsShareTheLeaves) {
   EXPECT_FALSE(blobtree::edit_blends((*after)->tape(), scene, *wrong, {}).ok());
 }
 
+// Primitives that all overlap leave nothing to cull: the work comes in pieces, between which others run.
+TEST(FieldOnDevice, ALargeBatchIsCutAndCanBeCancelled) {
+  v1::Scene scene;
+  v1::Node sum;
+  for (int i = 0; i < 1000; ++i) {
+    v1::Sphere& s = *scene.add_nodes()->mutable_sphere();
+    s.set_radius(1);
+    s.set_range(1 + i * 1e-3);
+    sum.mutable_sum()->add_children(test_support::place(i));
+  }
+  *scene.add_nodes() = sum;
+  const engine::SceneLease lease = resident(scene);
+  const std::vector<float> xyz = random_points(5, 40'000, 1);
+  std::vector<float> whole(40'000), out(40'000);
+  int asked = 0;
+  const absl::Status all = fields().evaluate(*lease, xyz, Quantity::kValue, whole, [&] { return ++asked < 0; });
+  ASSERT_TRUE(all.ok()) << all;
+  EXPECT_GE(asked, 4);
+  // The same bits as in small batches.
+  for (const std::size_t first : {0u, 20'000u, 39'990u}) {
+    const std::vector<float> some(xyz.begin() + 3 * first, xyz.begin() + 3 * (first + 10));
+    const std::vector<float> part = evaluate(*lease, some, Quantity::kValue);
+    EXPECT_EQ(std::memcmp(part.data(), &whole[first], 10 * sizeof(float)), 0);
+  }
+  asked = 0;
+  const absl::Status cut = fields().evaluate(*lease, xyz, Quantity::kValue, out, [&] { return ++asked == 2; });
+  EXPECT_EQ(cut.code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(asked, 2);
+}
+
 TEST(FieldOnDevice, TakesDeepTrees) {
   // 1,001 spheres nested 1,000 deep, to the left and to the right.
   for (const bool left : {true, false}) {
