@@ -69,6 +69,7 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
     const int status = app.exit(error);
     return {std::nullopt, status == 0 ? 0 : 2};
   }
+  c.limits.max_streams = c.max_threads * 3 / 4;
   return {c, 0};
 }
 

@@ -80,6 +80,21 @@ absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& re
   return lattice;
 }
 
+// Counted while it lives.
+class OpenStream {
+ public:
+  explicit OpenStream(std::atomic<int>& counter) : counter_(counter), count_(++counter) {}
+  ~OpenStream() { --counter_; }
+  OpenStream(const OpenStream&) = delete;
+  OpenStream& operator=(const OpenStream&) = delete;
+  // With this one.
+  int count() const { return count_; }
+
+ private:
+  std::atomic<int>& counter_;
+  const int count_;
+};
+
 }  // namespace
 
 absl::Status FieldService::evaluate(const grpc::ServerContext& context, const engine::ResidentScene& scene,
@@ -102,6 +117,13 @@ grpc::Status FieldService::Evaluate(grpc::ServerContext* context, const v1::Eval
 
 grpc::Status FieldService::EvaluateStream(
     grpc::ServerContext* context, grpc::ServerReaderWriter<v1::EvaluateResponse, v1::EvaluateStreamRequest>* stream) {
+  const OpenStream open(open_streams_);
+  if (open.count() > limits_.max_streams) {
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED,
+            absl::StrCat(limits_.max_streams,
+                         " streams are open, as many as are admitted (three quarters of "
+                         "--max-threads): close one, or try again")};
+  }
   v1::EvaluateStreamRequest request;
   if (!stream->Read(&request)) {
     return {grpc::StatusCode::INVALID_ARGUMENT, "the stream is empty: expected a first message that states the scene"};

@@ -1,6 +1,8 @@
 // FieldService of the contract.
 #pragma once
 
+#include <atomic>
+
 #include "engine/engine.h"
 #include "isofield/v1/field_service.grpc.pb.h"
 #include "rpc/limits.h"
@@ -26,6 +28,7 @@ class FieldService final : public v1::FieldService::Service {
   const SceneSource& scenes_;
   engine::Engine& engine_;
   const Limits& limits_;
+  std::atomic<int> open_streams_ = 0;
 };
 
 }  // namespace isofield::rpc

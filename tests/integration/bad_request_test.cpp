@@ -271,5 +271,43 @@ TEST(BadRequestOfSize, MessagesBeyondTheLimitAreRefusedAndTheConnectionLives) {
   expect_serving(daemon.address());
 }
 
+// Idle streams hold threads: more of them than are admitted are refused, and other calls go through all the while.
+TEST(Streams, AreFewerThanThreads) {
+  Daemon daemon({"--max-threads", "8"});
+  Peer peer(daemon.address());
+  const Ball ball;
+  struct Stream {
+    grpc::ClientContext context;
+    std::unique_ptr<grpc::ClientReaderWriter<v1::EvaluateStreamRequest, v1::EvaluateResponse>> call;
+  };
+  std::vector<std::unique_ptr<Stream>> open;
+  const auto begin = [&](Stream& stream) {
+    stream.call = peer.fields().EvaluateStream(&stream.context);
+    const float origin[] = {0, 0, 0};
+    v1::EvaluateStreamRequest request;
+    *request.mutable_scene() = inlined(ball.scene());
+    *request.mutable_points() = points_tensor(std::span(origin));
+    v1::EvaluateResponse response;
+    return stream.call->Write(request) && stream.call->Read(&response);
+  };
+  for (int i = 0; i < 6; ++i) {
+    open.push_back(std::make_unique<Stream>());
+    ASSERT_TRUE(begin(*open.back())) << i;
+  }
+  Stream refused;
+  EXPECT_FALSE(begin(refused));
+  const grpc::Status status = refused.call->Finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_NE(status.error_message().find("6 streams are open"), std::string::npos) << status.error_message();
+  EXPECT_TRUE(ok(peer.put("ball", ball.scene())));
+  // One that ends makes room.
+  open.back()->call->WritesDone();
+  EXPECT_TRUE(open.back()->call->Finish().ok());
+  Stream next;
+  EXPECT_TRUE(begin(next));
+  for (auto& stream : open) stream->context.TryCancel();
+  next.context.TryCancel();
+}
+
 }  // namespace
 }  // namespace isofield::integration_test
