@@ -36,7 +36,9 @@ Binary<T> clean_union(const T& f1, const T& f2) {
   using std::sqrt;
   if (value_of(f1) < value_of(f2)) return exchanged(clean_union(f2, f1));
   const double hi = value_of(f1), lo = value_of(f2);
-  if (lo <= clean_union_centre(hi).first) return {f1, T(1.0), T(0.0)};
+  // At the edge, where the arcs have no radius, and outside of them.
+  const double centre = clean_union_centre(hi).first;
+  if (lo <= centre || hi - centre <= 1e-12 * hi) return {f1, T(1.0), T(0.0)};
   const double root = root_of(hi, lo < 0.5 ? std::sqrt(lo / 2) : 2 * lo * lo, [&](double c) {
     const auto [k, k_c] = clean_union_centre(c);
     const double a = hi - k, b = std::max(lo - k, 0.0), m = std::hypot(a, b);

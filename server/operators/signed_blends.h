@@ -19,7 +19,8 @@ Binary<T> pasko_blend(const T& x1, const T& x2, double a0, double a1, double a2)
           T(1.0) - x2 * inverse - fall * x2 * T(1 / (a2 * a2))};
 }
 
-// One operand's part of the super-elliptic blend, [G] eq. 4: [1 - x/r]_+^t, with minus its derivative.
+// One operand's part of the super-elliptic blend, [G] eq. 4: [1 - x/r]_+^t, with minus its derivative. Deep inside,
+// where the power is above 1e12, it goes on straight: a power would leave the numbers.
 template <class T>
 struct Bracket {
   T value, fall;
@@ -29,6 +30,11 @@ Bracket<T> superelliptic_bracket(const T& x, const T& range, double t) {
   using std::pow;
   const T u = T(1.0) - x / range;
   if (value_of(u) <= 0) return {T(0.0), T(0.0)};
+  const double deepest = std::pow(1e12, 1 / t);
+  if (value_of(u) > deepest) {
+    const T slope(t * 1e12 / deepest);
+    return {T(1e12) + (u - T(deepest)) * slope, slope / range};
+  }
   return {pow(u, t), pow(u, t - 1) * T(t) / range};
 }
 

@@ -16,40 +16,40 @@ Centre clean_union_centre(Dual c) {
 }
 
 // [G] eqs. 9 and 10. Newton's method from the maximum, where the slope is between 1 and 2; on the arcs beside the sharp
-// edge it needs up to six steps.
+// edge it needs up to six steps. Lengths are measured in the greater field, so that no square underflows.
 Binary clean_union(Dual f1, Dual f2) {
   bool swap = value_of(f1) < value_of(f2);
   Dual hi = select_dual(f1, f2, swap), lo = select_dual(f2, f1, swap);
-  Binary max_only = Binary(hi, dual(1.0), dual(0.0));
-  bool is_max = value_of(lo) <= value_of(clean_union_centre(hi).k) || value_of(lo) <= 0.0;
-  float c = value_of(hi);
+  float top = value_of(hi), low = value_of(lo);
+  float centre = value_of(clean_union_centre(hi).k);
+  // At the edge the arcs have no radius.
+  bool is_max = low <= centre || low <= 0.0 || top - centre <= 1e-6 * top;
+  float unit = 1.0 / max(top, 1e-37);
+  float c = top;
   // Below the edge the arc ends where the centre meets the lesser field; beyond, the equation has a false root.
-  float limit = value_of(lo) < 0.5 ? sqrt(0.5 * max(value_of(lo), 0.0)) : 2.0 * value_of(lo) * value_of(lo);
+  float limit = max(low < 0.5 ? sqrt(0.5 * max(low, 0.0)) : 2.0 * low * low, top);
   for (int step = 0; step < 7; ++step) {
     Centre at = clean_union_centre(dual(c));
     float k = value_of(at.k);
-    float a = max(value_of(hi) - k, 1e-30), b = max(value_of(lo) - k, 0.0);
+    float a = max((top - k) * unit, 1e-12), b = max((low - k) * unit, 0.0);
     float m = sqrt(a * a + b * b);
     float slope = 1.0 - value_of(at.k_c) * (1.0 - (a + b) / m);
-    c = clamp(c - (c - k - m) / slope, value_of(hi), max(limit, value_of(hi)));
+    c = clamp(c - (c - k - m * top) / slope, top, limit);
   }
-  // A step in duals gives the root its derivatives.
-  Dual root = dual(c);
-  Dual slope = dual(1.0);
+  // A step in duals gives the root its derivatives, a second pass the partials theirs.
+  Dual root = dual(c), a, b, m, slope;
   for (int pass = 0; pass < 2; ++pass) {
     Centre at = clean_union_centre(root);
-    Dual a = hi - at.k, b = lo - at.k;
-    Dual m = square_root(times(a, a) + times(b, b));
-    m = select_dual(m, dual(1.0), value_of(m) <= 1e-20);
+    a = unit * (hi - at.k);
+    b = unit * (lo - at.k);
+    Dual square = times(a, a) + times(b, b);
+    m = square_root(select_dual(square, dual(1.0), value_of(square) <= 1e-24));
     slope = dual(1.0) - times(at.k_c, dual(1.0) - over(a + b, m));
-    if (pass == 0) root = root - (root - at.k - m) * (1.0 / value_of(slope));
+    if (pass == 0) root = root - (root - at.k - top * m) * (1.0 / value_of(slope));
   }
-  Dual k = clean_union_centre(root).k;
-  Dual denominator = times(root - k, slope);
-  bool is_edge = abs(value_of(denominator)) <= 1e-20;
-  Dual inverse = reciprocal(select_dual(denominator, dual(1.0), is_edge));
-  Binary r = Binary(root, times(hi - k, inverse), times(lo - k, inverse));
-  r = select_binary(r, max_only, is_max || is_edge);
+  Dual inverse = reciprocal(times(m, slope));
+  Binary r = Binary(root, times(a, inverse), times(b, inverse));
+  r = select_binary(r, Binary(hi, dual(1.0), dual(0.0)), is_max);
   return select_binary(r, exchanged(r), swap);
 }
 

@@ -5,6 +5,8 @@
 #include "dual.glsl"
 #include "profiles.glsl"
 
+const float FAR = 1e8;  // times a1 or a2
+
 // [G] eqs. 5 and 8; `a` holds a0, 1 / a1^2, 1 / a2^2.
 Binary pasko_blend(Dual x1, Dual x2, vec3 a) {
   // Scaled, so that no square over- or underflows.
@@ -13,10 +15,15 @@ Binary pasko_blend(Dual x1, Dual x2, vec3 a) {
   Dual r = square_root(times(u1, u1) + times(u2, u2));
   bool is_corner = value_of(r) < 0.5;  // both 0
   Dual inverse = select_dual(reciprocal(select_dual(r, dual(1.0), is_corner)), dual(0.0), is_corner);
-  Dual w = reciprocal(dual(1.0) + a.y * times(x1, x1) + a.z * times(x2, x2));
+  // Far out nothing is left of the blend, and squares would overflow.
+  float i1 = sqrt(a.y), i2 = sqrt(a.z);
+  Dual t1 = i1 * x1, t2 = i2 * x2;
+  t1 = select_dual(t1, dual(FAR), abs(value_of(t1)) > FAR);
+  t2 = select_dual(t2, dual(FAR), abs(value_of(t2)) > FAR);
+  Dual w = reciprocal(dual(1.0) + times(t1, t1) + times(t2, t2));
   Dual fall = 2.0 * a.x * times(w, w);
-  return Binary(x1 + x2 - size * r + a.x * w, dual(1.0) - times(u1, inverse) - a.y * times(fall, x1),
-                dual(1.0) - times(u2, inverse) - a.z * times(fall, x2));
+  return Binary(x1 + x2 - size * r + a.x * w, dual(1.0) - times(u1, inverse) - i1 * times(fall, t1),
+                dual(1.0) - times(u2, inverse) - i2 * times(fall, t2));
 }
 
 struct Bracket {
@@ -28,7 +35,13 @@ Bracket superelliptic_bracket(Dual x, Dual range, float t) {
   Dual u = dual(1.0) - times(x, inverse);
   bool is_out = value_of(u) <= 0.0;
   u = select_dual(u, dual(1.0), is_out);
-  Bracket b = Bracket(power(u, t), t * times(power(u, t - 1.0), inverse));
+  // Above 1e12 it goes on straight.
+  float deepest = exp2(39.863137 / t), slope = t * 1e12 / deepest;
+  bool is_deep = value_of(u) > deepest;
+  Dual above = u - dual(deepest);
+  u = select_dual(u, dual(1.0), is_deep);
+  Bracket b = Bracket(select_dual(power(u, t), dual(1e12) + slope * above, is_deep),
+                      times(select_dual(t * power(u, t - 1.0), dual(slope), is_deep), inverse));
   return Bracket(select_dual(b.value, dual(0.0), is_out), select_dual(b.fall, dual(0.0), is_out));
 }
 
