@@ -109,11 +109,11 @@ TEST(PaperDegenerate, IsFiniteAndTheReferences) {
             ASSERT_TRUE(std::isfinite(r.value) && std::isfinite(length(r.gradient))) << where();
           }
           const double error = std::abs(device[i].value - s.value) / std::max(1.0, s.value);
-          // A bulge's profile is good to 2e-5 for each of two blends. That of K = 1 ends in a vertical tangent at
-          // f1 = f2, which no cubic cell follows: the last of 256 cells is off by a hundredth.
+          // The bulge of K = 1 ends in a vertical tangent at f1 = f2, which makes a root of what float32 leaves of
+          // f1 - f2.
           const bool vertical = std::string(silhouette_name) == "bulge 1";
           (vertical ? worst_vertical : worst_value) = std::max(vertical ? worst_vertical : worst_value, error);
-          EXPECT_LE(error, vertical ? 0.015 : 4e-5) << where() << ": " << device[i].value << ", exact " << s.value;
+          EXPECT_LE(error, vertical ? 1e-3 : 4e-6) << where() << ": " << device[i].value << ", exact " << s.value;
           if (vertical) continue;
           // As on random scenes: not where float32 coordinates cannot tell the side of a crease.
           const double scale = std::max(length(s.gradient), 0.05);
@@ -391,7 +391,7 @@ TEST(PaperDegenerate, DISABLED_CleanUnionOfTwoFieldsOfAHalfIsFinite) {
   }
 }
 
-// Fails: a power of the depth inside overflows in float32, at a depth of ten ranges.
+// Fails: the 64th power of the depth inside overflows in float32, from a depth of three ranges on.
 TEST(PaperDegenerate, DISABLED_ASuperellipticBlendIsFiniteDeepInside) {
   const v1::Scene scene = test_support::scene_of_nodes(
       R"([{"name": "a", "sphere": {"radius": 1, "law": "SIGNED"}},
@@ -403,6 +403,10 @@ TEST(PaperDegenerate, DISABLED_ASuperellipticBlendIsFiniteDeepInside) {
     EXPECT_TRUE(std::isfinite(s.value) && std::isfinite(length(s.gradient)))
         << s.value << " with gradient " << s.gradient.x << " " << s.gradient.y << " " << s.gradient.z;
   }
+  // Cells so large that a corner is that deep.
+  const engine::Mesh mesh = DeviceField(scene).mesh(0.37);
+  EXPECT_FALSE(mesh.positions.empty());
+  for (const float x : mesh.positions) EXPECT_TRUE(std::isfinite(x)) << x;
 }
 
 }  // namespace
