@@ -9,139 +9,20 @@
 #include <map>
 #include <numbers>
 
-#include "engine/operator_evaluator.h"
-#include "gpu/gpu_environment.h"
-#include "reference/field_state.h"
+#include "gpu/operator_cases.h"
+#include "operators/gradient_blend.h"
+#include "support/finite_difference.h"
+#include "support/paper_scene.h"
 #include "support/random_scene.h"
 #include "support/shared_files.h"
 
 namespace isofield::gpu_test {
 namespace {
 
-using engine::Steering;
-using operators::Form;
 using operators::Kind;
 using operators::Law;
 using operators::Operator;
-using reference::Dual;
 using reference::FieldState;
-
-struct Case {
-  std::string name;
-  Operator op;
-  std::size_t operands = 2;
-  // Values may differ by so much times max(1, |exact|), partials by so much more.
-  double tolerance = 3e-6;
-};
-
-std::vector<float> evaluate(const Case& c, const std::vector<float>& arguments) {
-  static engine::OperatorEvaluator evaluator(device(), kernels(), volumes());
-  const Steering steering = c.op.by_angle ? Steering::kAlpha : Steering::kNone;
-  const std::size_t columns = c.operands + (c.op.by_angle ? 2 : 0);
-  std::vector<float> results(arguments.size() / columns * (1 + c.operands + (c.op.by_angle ? 1 : 0)));
-  const absl::Status status =
-      evaluator.evaluate(std::make_shared<const Operator>(c.op), c.operands, steering, arguments, results);
-  EXPECT_TRUE(status.ok()) << status;
-  return results;
-}
-
-// The operator on fields whose directions are such that the result's direction tells the partials: at most three.
-FieldState exact(const Operator& op, const std::vector<double>& x) {
-  std::vector<FieldState> operands;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const blobtree::dvec3 unit{i == 0 ? 1.0 : 0, i == 1 ? 1.0 : 0, i == 2 ? 1.0 : 0};
-    operands.push_back({Dual(x[i], unit), {Dual(unit.x), Dual(unit.y), Dual(unit.z)}});
-  }
-  return combine({&op, operators::law_of(op.kind), 1}, operands);
-}
-
-Operator of_kind(Kind kind) {
-  Operator op;
-  op.kind = kind;
-  return op;
-}
-
-std::vector<Case> cases() {
-  std::vector<Case> all;
-  for (const Kind kind : {Kind::kSum, Kind::kMax, Kind::kMin, Kind::kDifference}) {
-    all.push_back({"classic " + std::to_string(static_cast<int>(kind)), of_kind(kind)});
-  }
-  Operator op = of_kind(Kind::kRicci);
-  for (const double t : {1.0, 2.5, 64.0}) {
-    op.exponent = t;
-    all.push_back({"ricci " + std::to_string(t), op});
-  }
-  for (const Form form : {Form::kUnion, Form::kIntersection, Form::kDifference}) {
-    const std::string suffix = form == Form::kUnion          ? ""
-                               : form == Form::kIntersection ? " intersection"
-                                                             : " difference";
-    const auto add = [&](std::string name, Operator o, std::size_t operands = 2, double tolerance = 3e-6) {
-      o.form = form;
-      all.push_back({name + suffix, std::move(o), operands, tolerance});
-    };
-    // Next to its sharp edge the clean union's arcs shrink to nothing.
-    add("clean", of_kind(Kind::kClean), 2, 2e-5);
-    op = of_kind(Kind::kBarthe);
-    for (const auto& [theta1, theta2] : {std::pair{0.0, 0.0}, {0.2, 0.6}, {0.7, 0.1}, {0.785, 0.785}}) {
-      op.theta1 = theta1;
-      op.theta2 = theta2;
-      add("barthe " + std::to_string(theta1), op);
-    }
-    op = of_kind(Kind::kBernhardt);
-    op.theta1 = op.theta2 = 0.3;
-    op.weight = 0.4;
-    add("bernhardt", op, 2, 2e-5);
-    add("r_union", of_kind(Kind::kRUnion));
-    op = of_kind(Kind::kPasko);
-    op.a0 = -0.4;
-    op.a1 = 0.7;
-    op.a2 = 1.2;
-    add("pasko", op);
-    op = of_kind(Kind::kSuperelliptic);
-    op.exponent = 2.5;
-    op.terms = {{0.8, 2, 1}, {1.1, 2, 1}};
-    add("superelliptic", op);
-    op.by_angle = true;
-    // Ranges of a hundredth make the field steep.
-    add("superelliptic by angle", op, 2, 5e-5);
-    op = of_kind(Kind::kBt2);
-    for (const double conic : {-2.0, 0.0, 0.9}) {
-      for (const double m : {1.0, 0.3}) {
-        op.terms = {{1, 2, m}, {1.2, 2, 1}};
-        op.conic = conic;
-        add("bt2 " + std::to_string(conic), op);
-      }
-    }
-    op.by_angle = true;
-    add("bt2 by angle", op, 2, 1e-5);
-    op = of_kind(Kind::kBtk);
-    op.terms = {{1, 2, 1}, {0.7, 3, 0.4}, {1.3, 1.5, 2}};
-    add("btk of 3", op, 3, 1e-5);
-    op.terms = {{1, 2, 1}};
-    add("btk of 2", op, 2, 1e-5);
-    op.terms = {{1, 2, 0.5}, {0.8, 4, 1}};
-    op.by_angle = true;
-    add("btk by angle", op, 2, 2e-5);
-  }
-  op = of_kind(Kind::kFunctional);
-  op.curve = operators::SampledCurve({-0.5, 0.0, 0.3, 0.9}, {0.8, 0.5, 0.1, 0.0});
-  all.push_back({"functional", op});
-  return all;
-}
-
-// Where partials jump or bend sharply float32 cannot follow: told by moving the arguments.
-bool is_smooth(const Operator& op, const std::vector<double>& x, const FieldState& here) {
-  // Where a form of positive fields is all but 0 it is clamped.
-  if (operators::law_of(op.kind) == Law::kPositive && here.field.v < 1e-6) return false;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    for (const double step : {-1e-5, 1e-5}) {
-      std::vector<double> moved = x;
-      moved[i] += step;
-      if (length(exact(op, moved).field.d - here.field.d) > 5e-4 * std::max(1.0, length(here.field.d))) return false;
-    }
-  }
-  return true;
-}
 
 TEST(Conformance, EveryOperatorIsTheSameOnTheDevice) {
   for (const Case& c : cases()) {
@@ -157,7 +38,7 @@ TEST(Conformance, EveryOperatorIsTheSameOnTheDevice) {
         rows.push_back(static_cast<float>(i % 50 == 0 && k == 0 ? 0 : x));
       }
     }
-    const std::vector<float> results = evaluate(c, rows);
+    const std::vector<float> results = on_device(c, rows);
     double worst = 0, worst_partial = 0;
     int smooth = 0;
     for (int i = 0; i < kRows; ++i) {
@@ -196,14 +77,11 @@ TEST(Conformance, OperatorsThatFollowAnAngleAreTheSameOnTheDevice) {
         rows.push_back(static_cast<float>(x));
       }
     }
-    const std::vector<float> results = evaluate(c, rows);
+    const std::vector<float> results = on_device(c, rows);
     double worst = 0;
     for (int i = 0; i < kRows; ++i) {
       const float* a = &rows[4 * i];
-      const double cosine = std::cos(double{a[2]}), sine = std::sin(double{a[2]});
-      const FieldState first{Dual(a[0]), {Dual(double{a[3]}), Dual(0.0), Dual(0.0)}};
-      const FieldState second{Dual(a[1]), {Dual(cosine), Dual(sine), Dual(0.0)}};
-      const FieldState e = reference::combine({&c.op, Law::kSigned, 1}, {first, second});
+      const FieldState e = exact_at(c.op, a[0], a[1], a[2], a[3]);
       worst = std::max(worst, std::abs(results[4 * i] - e.field.v) / std::max(1.0, std::abs(e.field.v)));
       for (int k = 0; k < 4; ++k) ASSERT_TRUE(std::isfinite(results[4 * i + k])) << "row " << i;
     }
@@ -225,7 +103,7 @@ TEST(Conformance, PartialsByTheAngleAreDifferencesOfValues) {
       const auto alpha = static_cast<float>(random.number(0.2, 2.9));
       for (const float moved : {alpha - kStep, alpha, alpha + kStep}) rows.insert(rows.end(), {x1, x2, moved, 1.25f});
     }
-    const std::vector<float> r = evaluate(c, rows);
+    const std::vector<float> r = on_device(c, rows);
     std::vector<double> errors;
     for (int i = 0; i < kRows; ++i) {
       const float* low = &r[12 * i];
@@ -233,6 +111,122 @@ TEST(Conformance, PartialsByTheAngleAreDifferencesOfValues) {
     }
     std::sort(errors.begin(), errors.end());
     EXPECT_LE(errors[kRows * 95 / 100], 1e-2);  // the cosine's bend at a right angle, and the edge of the blend
+  }
+}
+
+// Exact partials against central differences of exact values, and the device's against the same differences. Left out,
+// and counted: where differences with two steps or to both sides do not agree. The device's are not compared where
+// is_smooth() says that float32 cannot follow.
+class PartialsByDifferences {
+ public:
+  // f(column, x): the value with the argument of that column replaced.
+  template <class Value>
+  void compare(const std::vector<double>& arguments, const std::vector<double>& partials, const float* device,
+               const Value& value) {
+    for (std::size_t k = 0; k < partials.size(); ++k) {
+      const double x = arguments[k], h = 1e-4;
+      const auto slope = test_support::settled_slope([&](double x) { return value(k, x); }, x, h, 1e-6);
+      ++all_;
+      if (!slope || std::abs(value(k, x + h) - 2 * value(k, x) + value(k, x - h)) > 0.1 * h) continue;
+      ++settled_;
+      const double scale = std::max(1.0, std::abs(*slope));
+      exact_ = std::max(exact_, std::abs(partials[k] - *slope) / scale);
+      if (device != nullptr) device_ = std::max(device_, std::abs(device[k] - *slope) / scale);
+    }
+  }
+  void report(const std::string& what) const {
+    std::cout << what << ": partials off their differences by " << exact_ << " in double precision, by " << device_
+              << " on the device; " << all_ - settled_ << " of " << all_ << " left out\n";
+  }
+  double exact() const { return exact_; }
+  double device() const { return device_; }
+  double left_out() const { return 1 - settled_ / static_cast<double>(all_); }
+
+ private:
+  double exact_ = 0, device_ = 0;
+  int all_ = 0, settled_ = 0;
+};
+
+TEST(Conformance, PartialsAreDifferencesOfExactValues) {
+  double worst = 0, worst_device = 0;
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const bool is_signed = operators::law_of(c.op.kind) == Law::kSigned;
+    test_support::Random random(31);
+    std::vector<float> rows;
+    constexpr int kRows = 500;
+    const std::size_t columns = c.operands + (c.op.by_angle ? 2 : 0), partials = c.operands + (c.op.by_angle ? 1 : 0);
+    for (int i = 0; i < kRows; ++i) {
+      for (std::size_t k = 0; k < c.operands; ++k) {
+        rows.push_back(static_cast<float>(is_signed ? random.number(-1.5, 1.5) : random.number(0.01, 1.5)));
+      }
+      if (!c.op.by_angle) continue;
+      rows.push_back(static_cast<float>(random.number(0.01, std::numbers::pi - 0.01)));
+      rows.push_back(static_cast<float>(random.number(0.3, 3)));
+    }
+    const std::vector<float> device = on_device(c, rows);
+    PartialsByDifferences differences;
+    for (int i = 0; i < kRows; ++i) {
+      const auto at = rows.begin() + static_cast<std::ptrdiff_t>(i * columns);
+      const std::vector<double> x(at, at + static_cast<std::ptrdiff_t>(columns));
+      const auto state = [&](const std::vector<double>& x) {
+        return c.op.by_angle ? exact_at(c.op, x[0], x[1], x[2], x[3]) : exact(c.op, x);
+      };
+      const FieldState e = state(x);
+      const double d[] = {e.field.d.x, e.field.d.y, e.field.d.z};
+      // Ranges of a hundredth, as aligned surfaces have, are within the step of a difference.
+      const bool is_even = c.op.by_angle || is_smooth(c.op, x, e);
+      differences.compare(x, {d, d + partials}, is_even ? &device[i * (1 + partials) + 1] : nullptr,
+                          [&](std::size_t k, double moved) {
+                            std::vector<double> y = x;
+                            y[k] = moved;
+                            return state(y).field.v;
+                          });
+    }
+    differences.report(c.name);
+    EXPECT_LE(differences.exact(), 1e-4);
+    EXPECT_LE(differences.device(), 1e-4);
+    EXPECT_LE(differences.left_out(), 0.2);
+    worst = std::max(worst, differences.exact());
+    worst_device = std::max(worst_device, differences.device());
+  }
+  test_support::figure("partials off differences, double precision", worst);
+  test_support::figure("partials off differences, device", worst_device);
+}
+
+TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
+  using operators::Silhouette;
+  const std::pair<const char*, Silhouette> files[] = {{"gradient_smooth.csv", {}},
+                                                      {"gradient_bulge_0.25.csv", {Silhouette::Kind::kBulge, 0.25}},
+                                                      {"gradient_bulge_0.8.csv", {Silhouette::Kind::kBulge, 0.8}}};
+  for (const auto& [file, silhouette] : files) {
+    ISOFIELD_NEEDS_SHARED(std::string("golden/") + file);
+    const auto table = test_support::read_csv(test_support::shared_file(std::string("golden/") + file));
+    ASSERT_TRUE(table.ok()) << table.status();
+    Operator op = of_kind(Kind::kGradient);
+    op.silhouette = silhouette;
+    std::vector<float> rows;
+    for (const auto& row : table->rows) {
+      for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(row[k]));
+    }
+    const std::vector<float> device = on_device({file, op}, rows);
+    PartialsByDifferences differences;
+    for (std::size_t i = 0; i < table->rows.size(); ++i) {
+      const std::vector<double> x(rows.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                                  rows.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+      const operators::Blend e = operators::gradient_blend(x[0], x[1], x[2], silhouette);
+      differences.compare(x, {e.g1, e.g2, e.gt}, &device[4 * i + 1], [&](std::size_t k, double moved) {
+        double y[] = {x[0], x[1], x[2]};
+        y[k] = moved;
+        // The operator ends at fields of 0 and at 0 and 45 degrees.
+        const bool is_within = moved >= 0 && (k < 2 || moved <= std::numbers::pi / 4);
+        return is_within ? operators::gradient_blend(y[0], y[1], y[2], silhouette).g : std::nan("");
+      });
+    }
+    differences.report(file);
+    EXPECT_LE(differences.exact(), 1e-4);
+    EXPECT_LE(differences.device(), 1e-4);
+    EXPECT_LE(differences.left_out(), 0.2);
   }
 }
 
@@ -253,7 +247,7 @@ void expect_golden(const std::string& file, std::size_t operands,
     for (const std::size_t i : places) {
       for (std::size_t k = 0; k < operands; ++k) rows.push_back(static_cast<float>(table->rows[i][k]));
     }
-    const std::vector<float> results = evaluate({file, make(parameters), operands}, rows);
+    const std::vector<float> results = on_device({file, make(parameters), operands}, rows);
     for (std::size_t n = 0; n < places.size(); ++n) {
       worst = std::max(worst, std::abs(results[n * (1 + operands)] - table->rows[places[n]].back()));
     }

@@ -1,11 +1,20 @@
-// Degenerate input of the gradient-based blends: zero gradients, identical and coincident operands, fields above 1,
-// openings of 0 and 45 degrees, gradients exactly parallel and opposed. Finite everywhere, and the device agrees with
-// the reference.
+// Degenerate input of the operators: zero gradients, identical and coincident operands, fields above 1, of 0, of a
+// million and one ulp apart, openings of 0 and 45 degrees, gradients exactly parallel and opposed. Finite everywhere,
+// and the device agrees with the reference.
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_format.h>
+#include <absl/strings/str_join.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
+#include <numbers>
+#include <span>
 
 #include "gpu/device_field.h"
+#include "gpu/operator_cases.h"
+#include "operators/gradient_blend.h"
 #include "support/paper_scene.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
@@ -100,11 +109,11 @@ TEST(PaperDegenerate, IsFiniteAndTheReferences) {
             ASSERT_TRUE(std::isfinite(r.value) && std::isfinite(length(r.gradient))) << where();
           }
           const double error = std::abs(device[i].value - s.value) / std::max(1.0, s.value);
-          // A bulge's profile is good to 2e-5 for each of two blends. That of K = 1 ends in a vertical tangent at
-          // f1 = f2, which no cubic cell follows: the last of 256 cells is off by a hundredth.
+          // The bulge of K = 1 ends in a vertical tangent at f1 = f2, which makes a root of what float32 leaves of
+          // f1 - f2.
           const bool vertical = std::string(silhouette_name) == "bulge 1";
           (vertical ? worst_vertical : worst_value) = std::max(vertical ? worst_vertical : worst_value, error);
-          EXPECT_LE(error, vertical ? 0.015 : 4e-5) << where() << ": " << device[i].value << ", exact " << s.value;
+          EXPECT_LE(error, vertical ? 1e-3 : 4e-6) << where() << ": " << device[i].value << ", exact " << s.value;
           if (vertical) continue;
           // As on random scenes: not where float32 coordinates cannot tell the side of a crease.
           const double scale = std::max(length(s.gradient), 0.05);
@@ -124,6 +133,280 @@ TEST(PaperDegenerate, IsFiniteAndTheReferences) {
   test_support::figure("largest error of values with K = 1", worst_vertical);
   test_support::figure("largest relative error of gradients", worst_gradient);
   test_support::figure("points on creases", 100.0 * static_cast<double>(creases) / static_cast<double>(compared), "%");
+}
+
+using operators::Kind;
+using operators::Law;
+using operators::Operator;
+
+// Beside cases(): the ends of parameters' ranges.
+std::vector<Case> extreme_cases() {
+  std::vector<Case> all = cases();
+  Operator op = of_kind(Kind::kBarthe);
+  op.theta1 = op.theta2 = std::numbers::pi / 4;
+  all.push_back({"barthe 45 degrees", op});
+  op.theta2 = 0;
+  all.push_back({"barthe 45 and 0 degrees", op});
+  op = of_kind(Kind::kBernhardt);
+  for (const double weight : {0.0, 1.0}) {
+    op.weight = weight;
+    all.push_back({"bernhardt " + std::to_string(weight), op});
+  }
+  op = of_kind(Kind::kPasko);
+  op.a0 = 2;
+  op.a1 = op.a2 = 1e-3;
+  all.push_back({"pasko narrow", op});
+  op = of_kind(Kind::kBt2);
+  op.terms = {{1e-3, 2, 1}, {1e3, 2, 1}};
+  op.conic = -9;
+  all.push_back({"bt2 of unlike ranges", op});
+  op.terms = {{1, 2, 1e-3}, {1, 2, 1e3}};
+  op.conic = 0.999;
+  all.push_back({"bt2 of unlike weights", op, 2, 1e-5});
+  op = of_kind(Kind::kBtk);
+  op.terms = {{1, 64, 1}, {1, 64, 1}};
+  all.push_back({"btk of powers 64", op, 2, 1e-5});
+  op.terms = {{1, 1.01, 1}, {1, 1.01, 1}};
+  all.push_back({"btk of powers 1.01", op, 2, 1e-5});
+  op.terms = {{1, 2, 1e-3}, {1, 2, 1e3}};
+  all.push_back({"btk of unlike weights", op, 2, 1e-5});
+  op.terms = {{1e-3, 2, 1}, {1e3, 2, 1}};
+  all.push_back({"btk of unlike ranges", op, 2, 1e-5});
+  return all;
+}
+
+// TO BE REMOVED with the two disabled tests below, once they pass: where the clean union is wrong.
+bool is_known_to_fail(const Operator& op, double f1, double f2) {
+  if (op.form != operators::Form::kUnion || (op.kind != Kind::kClean && op.kind != Kind::kBernhardt)) return false;
+  const bool is_tiny = std::max(f1, f2) < 2e-19 && std::min(f1, f2) > 0;
+  const bool is_half = std::max(std::abs(f1 - 0.5), std::abs(f2 - 0.5)) < 1e-12;
+  return is_tiny || is_half;
+}
+
+double least_weight(const Operator& op) {
+  double least = 1;
+  for (const operators::Term& t : op.terms) least = std::min(least, t.weight);
+  return least;
+}
+
+std::vector<float> degenerate_fields(Law law) {
+  std::vector<float> all{0,
+                         1e-30f,
+                         1e-6f,
+                         0.25f,
+                         std::nextafter(0.5f, 0.0f),
+                         0.5f,
+                         std::nextafter(0.5f, 1.0f),
+                         1,
+                         std::nextafter(1.0f, 2.0f),
+                         1.5f,
+                         2,
+                         1000,
+                         1e6f};
+  if (law == Law::kSigned) {
+    for (std::size_t i = 1, count = all.size(); i < count; ++i) all.push_back(-all[i]);
+  }
+  return all;
+}
+
+// Errors in parts of the largest number that takes part: what float32 sums are good for.
+TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesAtDegenerateFields) {
+  double all_worst = 0;
+  std::size_t all_rows = 0;
+  for (const Case& c : extreme_cases()) {
+    SCOPED_TRACE(c.name);
+    std::vector<float> rows;
+    const std::vector<float> fields = degenerate_fields(operators::law_of(c.op.kind));
+    for (const float x1 : fields) {
+      for (const float x2 : fields) {
+        if (c.op.by_angle) {
+          for (const float alpha : {0.0f, 1e-4f, 1.5707964f, 3.1415925f}) {
+            for (const float ratio : {1e-6f, 1.0f, 8.0f, 1e6f}) rows.insert(rows.end(), {x1, x2, alpha, ratio});
+          }
+        } else if (c.operands == 2) {
+          rows.insert(rows.end(), {x1, x2});
+        } else {
+          for (const float x3 : {0.0f, 0.5f, -1.0f, 1e6f, -1e6f, x1}) rows.insert(rows.end(), {x1, x2, x3});
+        }
+      }
+    }
+    const std::size_t columns = c.operands + (c.op.by_angle ? 2 : 0), width = 1 + c.operands + (c.op.by_angle ? 1 : 0);
+    const std::vector<float> results = on_device(c, rows);
+    double worst = 0;
+    for (std::size_t i = 0; i * columns < rows.size(); ++i) {
+      const auto at = rows.begin() + static_cast<std::ptrdiff_t>(i * columns);
+      const std::vector<double> x(at, at + static_cast<std::ptrdiff_t>(columns));
+      const auto row = [&] { return "at " + absl::StrJoin(x, " "); };
+      if (is_known_to_fail(c.op, x[0], x[1])) continue;
+      const reference::FieldState e = c.op.by_angle ? exact_at(c.op, x[0], x[1], x[2], x[3]) : exact(c.op, x);
+      ASSERT_TRUE(std::isfinite(e.field.v) && std::isfinite(length(e.field.d))) << row();
+      for (const float r : std::span(&results[i * width], width)) ASSERT_TRUE(std::isfinite(r)) << row();
+      double scale = std::max(1.0, std::abs(e.field.v));
+      for (std::size_t k = 0; k < c.operands; ++k) scale = std::max(scale, std::abs(x[k]) / least_weight(c.op));
+      const double error = std::abs(results[i * width] - e.field.v) / scale;
+      worst = std::max(worst, error);
+      EXPECT_LE(error, c.tolerance) << row() << ": " << results[i * width] << ", exact " << e.field.v;
+    }
+    std::cout << "  " << c.name << ": values off by " << worst << " at " << rows.size() / columns << " rows\n";
+    all_worst = std::max(all_worst, worst);
+    all_rows += rows.size() / columns;
+  }
+  test_support::figure("rows", static_cast<double>(all_rows));
+  test_support::figure("values off by at most", all_worst);
+}
+
+TEST(PaperDegenerate, GradientBlendsAreFiniteAndTheReferencesAtDegenerateFields) {
+  using operators::Silhouette;
+  std::vector<float> rows;
+  for (const float f1 : degenerate_fields(Law::kPositive)) {
+    for (const float f2 : degenerate_fields(Law::kPositive)) {
+      for (const float theta : {0.0f, 1e-7f, 0.4f, 0.785398f, 0.7853981f}) rows.insert(rows.end(), {f1, f2, theta});
+    }
+  }
+  using Bulge = Silhouette::Kind;
+  for (const Silhouette& silhouette :
+       {Silhouette{}, Silhouette{Bulge::kBulge, 0.0}, Silhouette{Bulge::kBulge, 0.8}, Silhouette{Bulge::kBulge, 1}}) {
+    Operator op = of_kind(Kind::kGradient);
+    op.silhouette = silhouette;
+    const std::vector<float> results = on_device({"gradient", op}, rows);
+    double worst = 0;
+    for (std::size_t i = 0; 3 * i < rows.size(); ++i) {
+      const float* a = &rows[3 * i];
+      const operators::Blend e = operators::gradient_blend(a[0], a[1], a[2], silhouette);
+      const auto row = [&] { return absl::StrCat("at ", a[0], " ", a[1], " ", a[2]); };
+      for (const double r : {e.g, e.g1, e.g2, e.gt}) ASSERT_TRUE(std::isfinite(r)) << row();
+      for (const float r : std::span(&results[4 * i], 4)) ASSERT_TRUE(std::isfinite(r)) << row();
+      const double error = std::abs(results[4 * i] - e.g) / std::max(1.0, e.g);
+      worst = std::max(worst, error);
+      EXPECT_LE(error, 3e-6) << row() << ": " << results[4 * i] << ", exact " << e.g;
+    }
+    const bool is_bulge = silhouette.kind == Bulge::kBulge;
+    test_support::figure(
+        absl::StrCat(is_bulge ? absl::StrCat("bulge ", silhouette.k) : "smooth", ": values off by at most"), worst);
+  }
+}
+
+// A sphere, and a segment of no length, which is another.
+struct Balls {
+  const char* name;
+  double x, radius;  // of the second
+};
+
+TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesOnDegenerateShapes) {
+  const Balls pairs[] = {{"coincident", 0, 0.5},
+                         {"concentric", 0, 0.25},
+                         {"opposed", 0.5, 0.5},
+                         {"touching", 1, 0.5},
+                         {"an ulp apart", 1.1920929e-7, 0.5}};
+  std::vector<dvec3> points{{0, 0, 0},   {1e-30, 0, 0}, {1e-8, 1e-9, 0},  {0.25, 0, 0},
+                            {0.5, 0, 0}, {1, 0, 0},     {0, 0.5, 0},      {0.25, 0.3, 0},
+                            {0, 0, 2},   {1e30, 0, 0},  {0, 1e-4, -1e-4}, {0.5, 0, 0.5}};
+  test_support::Random random(3);
+  for (int i = 0; i < 20; ++i) points.push_back({random.number(-1.5, 1.5), 0, 0});  // on the line of both
+  for (int i = 0; i < 20; ++i) points.push_back(random.point(-1.2, 1.2));
+  for (dvec3& p : points) p = rounded_to_float(p);
+  double worst_value = 0, worst_gradient = 0;
+  std::size_t compared = 0, creases = 0, centres = 0;
+  for (const Case& c : extreme_cases()) {
+    if (c.operands != 2) continue;
+    SCOPED_TRACE(c.name);
+    const char* law = operators::law_of(c.op.kind) == Law::kSigned ? R"("law": "SIGNED"}})" : R"("range": 0.6}})";
+    for (const Balls& pair : pairs) {
+      const std::string centre = absl::StrFormat("[%.17g, 0, 0]", pair.x);
+      const std::string a = absl::StrCat(R"({"name": "a", "sphere": {"radius": 0.5, )", law),
+                        b = absl::StrCat(R"({"name": "b", "segment": {"a": )", centre, R"(, "b": )", centre,
+                                         R"(, "radius_a": )", pair.radius, R"(, "radius_b": )", pair.radius, ", ", law);
+      const v1::Scene scene =
+          test_support::scene_of_nodes(absl::StrCat("[", a, ",", b, ",", operator_node(c.op, {"a", "b"}), "]"));
+      const auto evaluator = [](const v1::Scene& s) { return reference::Evaluator(test_support::read_or_die(s)); };
+      const reference::Evaluator exact = evaluator(scene),
+                                 first = evaluator(test_support::scene_of_nodes("[" + a + "]")),
+                                 second = evaluator(test_support::scene_of_nodes("[" + b + "]"));
+      const std::vector<reference::Sample> device = DeviceField(scene).samples(points);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const dvec3& p = points[i];
+        const double f1 = first.value(p), f2 = second.value(p);
+        if (is_known_to_fail(c.op, f1, f2)) continue;
+        const reference::Sample s = exact.evaluate(p);
+        const auto where = [&] { return absl::StrCat(pair.name, " at ", p.x, " ", p.y, " ", p.z); };
+        for (const reference::Sample* sample : {&s, &device[i]}) {
+          const reference::Sample& r = *sample;
+          EXPECT_TRUE(std::isfinite(r.value) && std::isfinite(length(r.gradient)))
+              << where() << (&r == &s ? ", reference: " : ", device: ") << r.value << " with gradient " << r.gradient.x
+              << " " << r.gradient.y << " " << r.gradient.z;
+        }
+        // A field moves with its slope where coordinates move by what float32 leaves of them.
+        const double slope = std::max(length(s.gradient), 0.05);
+        const double scale =
+            std::max({1.0, std::abs(s.value), std::min(length(p), 1e10) / least_weight(c.op), 0.1 * slope});
+        const double error = std::abs(device[i].value - s.value) / scale;
+        ++compared;
+        // An angle has no value at a centre, around which gradients point everywhere.
+        if (c.op.by_angle && length(p - dvec3{pair.x, 0, 0}) * length(p) < 1e-6) {
+          ++centres;
+          continue;
+        }
+        worst_value = std::max(worst_value, error);
+        EXPECT_LE(error, c.tolerance) << where() << ": " << device[i].value << ", exact " << s.value;
+        if (test_support::gradient_variation(exact, p, 2e-6) > 5e-4 * slope) {
+          ++creases;
+          continue;
+        }
+        // As of partials in the conformance tests.
+        const double turn = length(device[i].gradient - s.gradient) / std::max(slope, 1.0);
+        worst_gradient = std::max(worst_gradient, turn);
+        EXPECT_LE(turn, 2e-3) << where();
+      }
+    }
+  }
+  test_support::figure("points", static_cast<double>(compared));
+  test_support::figure("points at centres, of operators that follow an angle", static_cast<double>(centres));
+  test_support::figure("values off by at most", worst_value);
+  test_support::figure("gradients off by at most", worst_gradient);
+  test_support::figure("points on creases", 100.0 * static_cast<double>(creases) / static_cast<double>(compared), "%");
+}
+
+// Fails at 1e-30: 1 instead of 1.4e-30, since squares of such fields are 0 in float32. Fields of primitives are no less
+// than 1.7e-21 where they are not 0, whose squares are denormal: a device that flushes those fails there, too, and has
+// specks inside where two primitives end at the same place.
+TEST(PaperDegenerate, DISABLED_CleanUnionOfTinyFieldsIsTiny) {
+  const Case clean{"clean", of_kind(Kind::kClean)};
+  for (const float f : {1e-18f, 1e-19f, 1e-20f, 1e-30f}) EXPECT_LT(on_device(clean, {f, f})[0], 1e-17f) << f;
+  const v1::Scene scene = test_support::scene_of_nodes(
+      R"([{"name": "a", "sphere": {"center": [-0.5, 0, 0], "radius": 0.25, "range": 0.25}},
+          {"name": "b", "sphere": {"center": [0.5, 0, 0], "radius": 0.25, "range": 0.25}},
+          {"clean": {"children": ["a", "b"]}}])");
+  std::vector<dvec3> points;
+  for (int i = -2000; i <= 2000; ++i) points.push_back({0, 0, 1e-7 * i});
+  for (const double value : DeviceField(scene).values(points)) EXPECT_LT(value, 0.5);
+}
+
+// Fails: NaN in the reference, 0 / 0 where both fields are 0.5 but for rounding.
+TEST(PaperDegenerate, DISABLED_CleanUnionOfTwoFieldsOfAHalfIsFinite) {
+  for (const double f1 : {0.5, std::nextafter(0.5, 1.0), 0.5 + 4e-16}) {
+    for (const double f2 : {0.5, std::nextafter(0.5, 1.0), std::nextafter(0.5, 0.0)}) {
+      const reference::FieldState e = exact(of_kind(Kind::kClean), {f1, f2});
+      EXPECT_TRUE(std::isfinite(e.field.v) && std::isfinite(length(e.field.d))) << f1 - 0.5 << " " << f2 - 0.5;
+    }
+  }
+}
+
+// Fails: the 64th power of the depth inside overflows in float32, from a depth of three ranges on.
+TEST(PaperDegenerate, DISABLED_ASuperellipticBlendIsFiniteDeepInside) {
+  const v1::Scene scene = test_support::scene_of_nodes(
+      R"([{"name": "a", "sphere": {"radius": 1, "law": "SIGNED"}},
+          {"name": "b", "sphere": {"center": [1, 0, 0], "radius": 1, "law": "SIGNED"}},
+          {"superelliptic": {"children": ["a", "b"], "exponent": 64, "ranges": [0.1]}}])");
+  std::vector<dvec3> points;
+  for (int i = 0; i <= 20; ++i) points.push_back({0.1 * i - 0.5, 0.01, 0.02});
+  for (const reference::Sample& s : DeviceField(scene).samples(points)) {
+    EXPECT_TRUE(std::isfinite(s.value) && std::isfinite(length(s.gradient)))
+        << s.value << " with gradient " << s.gradient.x << " " << s.gradient.y << " " << s.gradient.z;
+  }
+  // Cells so large that a corner is that deep.
+  const engine::Mesh mesh = DeviceField(scene).mesh(0.37);
+  EXPECT_FALSE(mesh.positions.empty());
+  for (const float x : mesh.positions) EXPECT_TRUE(std::isfinite(x)) << x;
 }
 
 }  // namespace

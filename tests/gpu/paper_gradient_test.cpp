@@ -11,17 +11,24 @@
 //   unsettled  for differences of the reference: those with steps of 1e-4 and a third of it differ by 0.01 degrees.
 //   stencil    for differences of the device: the same differences in double are off by 0.05 degrees, so that a crease
 //              or a tight bend lies within the stencil.
+//
+// Every other operator is measured at random points, by length instead of angle.
 #include <absl/strings/str_join.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <numbers>
+#include <set>
+#include <tuple>
 
 #include "gpu/device_field.h"
+#include "gpu/operator_cases.h"
 #include "support/finite_difference.h"
 #include "support/paper_scene.h"
+#include "support/random_scene.h"
 #include "support/scene_text.h"
 #include "support/smoothness.h"
 
@@ -200,6 +207,142 @@ TEST(PaperGradient, IsTheDerivativeOfTheFieldForFourNestedBlends) {
                       ",");
     expect_within(compare(test_support::scene_of_nodes("[" + nodes + "]"), 0.07, 2000),
                   std::string("four nested ") + text(join), 0.99, 2, 0.04);
+  }
+}
+
+// Largest differences of gradients in parts of max(|gradient|, 0.05).
+struct GradientErrors {
+  double to_differences = 0;  // of the reference's gradient from central differences of its value
+  double device = 0;          // of the device's from the reference's
+  int points = 0, unsettled = 0, creases = 0;
+
+  void include(const GradientErrors& e) {
+    to_differences = std::max(to_differences, e.to_differences);
+    device = std::max(device, e.device);
+    points += e.points;
+    unsettled += e.unsettled;
+    creases += e.creases;
+  }
+};
+
+// At random points where the field is not constant, nor so steep that float32 cannot square its slope: super-elliptic
+// blends of super-elliptic blends grow beyond 1e75 inside.
+GradientErrors gradient_errors(const std::string& nodes) {
+  const v1::Scene message = test_support::scene_of_nodes("[" + nodes + "]");
+  const reference::Evaluator exact(test_support::read_or_die(message));
+  test_support::Random random(5);
+  std::vector<dvec3> points;
+  for (int tries = 0; tries < 40'000 && points.size() < 80; ++tries) {
+    const dvec3 p = rounded_to_float(random.point(-1.1, 1.1));
+    const double slope = length(exact.evaluate(p).gradient);
+    if (slope > 0.01 && slope < 1e18) points.push_back(p);
+  }
+  EXPECT_GE(points.size(), 80u) << nodes;
+  const std::vector<reference::Sample> device = DeviceField(message).samples(points);
+  GradientErrors e;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const dvec3& p = points[i];
+    const dvec3 gradient = exact.evaluate(p).gradient;
+    const double scale = std::max(length(gradient), 0.05);
+    ++e.points;
+    std::array<double, 3> d{};
+    bool is_settled = true;
+    for (int a = 0; a < 3 && is_settled; ++a) {
+      const auto slope =
+          test_support::settled_slope([&](double x) { return exact.value(p + axis(a) * x); }, 0, 1e-4, 1e-6 * scale);
+      is_settled = slope.has_value();
+      d[a] = slope.value_or(0);
+    }
+    if (is_settled) {
+      e.to_differences = std::max(e.to_differences, length(dvec3{d[0], d[1], d[2]} - gradient) / scale);
+    } else {
+      ++e.unsettled;
+    }
+    if (test_support::gradient_variation(exact, p, 2e-6) > 5e-4 * scale) {
+      ++e.creases;
+    } else {
+      e.device = std::max(e.device, length(device[i].gradient - gradient) / scale);
+    }
+  }
+  return e;
+}
+
+void expect_gradients(const std::string& name, const GradientErrors& e, double most_unsettled) {
+  std::cout << "  " << name << ": off differences by " << e.to_differences << ", device off by " << e.device << ", of "
+            << e.points << " points " << e.unsettled << " unsettled, " << e.creases << " creases\n";
+  EXPECT_LE(e.to_differences, 1e-4) << name;
+  EXPECT_LE(e.device, 1e-3) << name;
+  EXPECT_LE(e.unsettled, most_unsettled * e.points) << name;
+  EXPECT_LE(e.creases, most_unsettled * e.points) << name;
+}
+
+// Five primitives of either law that overlap around the origin.
+std::string overlapping(operators::Law law) {
+  const char* last = law == operators::Law::kSigned ? R"("law": "SIGNED")" : R"("range": 0.9)";
+  std::string all;
+  for (const char* primitive :
+       {R"("a", "sphere": {"center": [-0.2, 0.1, 0], "radius": 0.6)",
+        R"("b", "segment": {"a": [0.1, -0.5, 0.2], "b": [0.7, 0.6, 0.1], "radius_a": 0.4, "radius_b": 0.3)",
+        R"("c", "sphere": {"center": [0.1, 0.3, 0.4], "radius": 0.5)",
+        R"("d", "torus": {"center": [0.1, 0, 0], "axis": [0.3, 0.2, 1], "major_radius": 0.5, "minor_radius": 0.35)",
+        R"("e", "sphere": {"center": [0.2, -0.3, -0.3], "radius": 0.55)"}) {
+    all += std::string(R"({"name": )") + primitive + ", " + last + "}},";
+  }
+  return all;
+}
+
+TEST(PaperGradient, IsTheDerivativeOfTheFieldForEveryOperator) {
+  GradientErrors all;
+  for (const Case& c : cases()) {
+    std::vector<std::string> children{"a", "b", "c"};
+    children.resize(c.operands);
+    const GradientErrors e = gradient_errors(overlapping(operators::law_of(c.op.kind)) + operator_node(c.op, children));
+    expect_gradients(c.name, e, 0.2);
+    all.include(e);
+  }
+  test_support::figure("gradients off differences by at most", all.to_differences);
+  test_support::figure("device's gradients off by at most", all.device);
+  test_support::figure("points unsettled", 100.0 * all.unsettled / all.points, "%");
+  test_support::figure("points on creases", 100.0 * all.creases / all.points, "%");
+}
+
+TEST(PaperGradient, IsTheDerivativeOfTheFieldForEveryOperatorNestedFourDeep) {
+  GradientErrors all;
+  std::set<std::tuple<operators::Kind, operators::Form, bool>> done;
+  for (const Case& c : cases()) {
+    // One set of parameters each.
+    if (c.operands != 2 || !done.insert({c.op.kind, c.op.form, c.op.by_angle}).second) continue;
+    const GradientErrors e =
+        gradient_errors(overlapping(operators::law_of(c.op.kind)) + operator_node(c.op, {"a", "b"}, "one") + "," +
+                        operator_node(c.op, {"one", "c"}, "two") + "," + operator_node(c.op, {"two", "d"}, "three") +
+                        "," + operator_node(c.op, {"three", "e"}, "four"));
+    expect_gradients("four " + c.name, e, 0.3);
+    all.include(e);
+  }
+  test_support::figure("gradients off differences by at most", all.to_differences);
+  test_support::figure("device's gradients off by at most", all.device);
+  test_support::figure("points unsettled", 100.0 * all.unsettled / all.points, "%");
+  test_support::figure("points on creases", 100.0 * all.creases / all.points, "%");
+}
+
+// Gradient blends hardened, blended by the angle, softened and blended by the angle again.
+TEST(PaperGradient, IsTheDerivativeOfTheFieldThroughConversions) {
+  for (const Join join : {Join::kCamel, Join::kOrganic, Join::kContact}) {
+    for (const char* form : {"UNION", "INTERSECTION", "DIFFERENCE"}) {
+      const std::string by_angle = std::string(R"("eliminate_bulge": true, "omega": 0.1, "form": ")") + form + "\"}},";
+      const std::string nodes =
+          soft_sphere("a", {-0.3, 0.1, 0}, 1.3) + "," + soft_segment("b", {0.1, -0.5, 0.2}, {0.7, 0.6, 0.1}, 1) +
+          R"(,{"name": "c", "sphere": {"center": [0.1, 0.3, 0.4], "radius": 0.6, "law": "SIGNED"}},)" +
+          soft_sphere("d", {0.4, -0.3, 0.1}, 1.2) +
+          R"(,{"name": "e", "sphere": {"center": [0.2, -0.3, -0.3], "radius": 0.65, "law": "SIGNED"}},)" +
+          test_support::join_node(join, {"a", "b"}, "ab") + R"(,{"name": "s1", "harden": {"child": "ab"}},)" +
+          R"({"name": "s2", "btk": {"children": ["s1", "c"], "ranges": [0.5], "weights": [1, 0.5], )" + by_angle +
+          R"({"name": "p2", "soften": {"child": "s2", "range": 0.8}},)" +
+          test_support::join_node(join, {"p2", "d"}, "p3") + R"(,{"name": "s3", "harden": {"child": "p3"}},)" +
+          R"({"name": "s4", "bt2": {"children": ["s3", "e"], "r1": 0.5, "r2": 0.4, "p": 0.1, )" + by_angle +
+          R"({"soften": {"child": "s4", "range": 0.8}})";
+      expect_gradients(std::string(text(join)) + " in " + form, gradient_errors(nodes), 0.3);
+    }
   }
 }
 

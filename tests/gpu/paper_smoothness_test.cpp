@@ -50,43 +50,11 @@ Solid three_blends(const Node& node) {
   return [e](const dvec3& p) { return e.evaluate(p); };
 }
 
-// Barthe's blend, opening at this angle from both axes.
-constexpr double kBartheDegrees = 15;
-
-// TO BE REPLACED: whether the reference evaluates `barthe` nodes. Once it does, barthe() and its use go.
-constexpr bool kBartheIsANode = false;
-
-// [G] eqs. 12 and 13 with theta1 = theta2: g = C on the arc of level C.
-Sample barthe(const Sample& s1, const Sample& s2) {
-  const double t = std::tan(kBartheDegrees * std::numbers::pi / 180);
-  if (s2.value <= s1.value * t) return s1;
-  if (s1.value <= s2.value * t) return s2;
-  const double square = (1 - t) * (1 - t);
-  const auto off = [&](double c) {
-    const double a = s1.value - c * t, b = s2.value - c * t;
-    return a * a + b * b - c * c * square;
-  };
-  double low = std::max(s1.value, s2.value), high = std::min(s1.value, s2.value) / t;
-  for (double c = (low + high) / 2; c > low && c < high; c = (low + high) / 2) (off(c) > 0 ? low : high) = c;
-  const double a = s1.value - low * t, b = s2.value - low * t, down = t * (a + b) + low * square;
-  return {low, s1.gradient * (a / down) + s2.gradient * (b / down)};
-}
-
 Solid three_barthe_blends() {
-  if constexpr (kBartheIsANode) {
-    return three_blends([](const std::vector<std::string>& children, const std::string& name) {
-      const std::string angle = std::to_string(kBartheDegrees);
-      return R"({"name": ")" + name + R"(", "barthe": {"children": [")" + children[0] + R"(", ")" + children[1] +
-             R"("], "theta1": )" + angle + R"(, "theta2": )" + angle + "}}";
-    });
-  }
-  std::vector<Evaluator> operands;
-  for (const std::string& sphere : spheres()) operands.push_back(evaluator(sphere));
-  return [operands](const dvec3& p) {
-    Sample all = operands[0].evaluate(p);
-    for (std::size_t i = 1; i < operands.size(); ++i) all = barthe(all, operands[i].evaluate(p));
-    return all;
-  };
+  return three_blends([](const std::vector<std::string>& children, const std::string& name) {
+    return R"({"name": ")" + name + R"(", "barthe": {"children": [")" + children[0] + R"(", ")" + children[1] +
+           R"("], "theta1": 15, "theta2": 15}})";
+  });
 }
 
 // A reflection line along the curve in which a plane cuts the surface, at `count` angles around a point within.
