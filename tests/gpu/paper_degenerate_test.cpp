@@ -175,14 +175,6 @@ std::vector<Case> extreme_cases() {
   return all;
 }
 
-// TO BE REMOVED with the two disabled tests below, once they pass: where the clean union is wrong.
-bool is_known_to_fail(const Operator& op, double f1, double f2) {
-  if (op.form != operators::Form::kUnion || (op.kind != Kind::kClean && op.kind != Kind::kBernhardt)) return false;
-  const bool is_tiny = std::max(f1, f2) < 2e-19 && std::min(f1, f2) > 0;
-  const bool is_half = std::max(std::abs(f1 - 0.5), std::abs(f2 - 0.5)) < 1e-12;
-  return is_tiny || is_half;
-}
-
 double least_weight(const Operator& op) {
   double least = 1;
   for (const operators::Term& t : op.terms) least = std::min(least, t.weight);
@@ -237,7 +229,6 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesAtDegenerateFields) {
       const auto at = rows.begin() + static_cast<std::ptrdiff_t>(i * columns);
       const std::vector<double> x(at, at + static_cast<std::ptrdiff_t>(columns));
       const auto row = [&] { return "at " + absl::StrJoin(x, " "); };
-      if (is_known_to_fail(c.op, x[0], x[1])) continue;
       const reference::FieldState e = c.op.by_angle ? exact_at(c.op, x[0], x[1], x[2], x[3]) : exact(c.op, x);
       ASSERT_TRUE(std::isfinite(e.field.v) && std::isfinite(length(e.field.d))) << row();
       for (const float r : std::span(&results[i * width], width)) ASSERT_TRUE(std::isfinite(r)) << row();
@@ -318,15 +309,10 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesOnDegenerateShapes) {
                                          R"(, "radius_a": )", pair.radius, R"(, "radius_b": )", pair.radius, ", ", law);
       const v1::Scene scene =
           test_support::scene_of_nodes(absl::StrCat("[", a, ",", b, ",", operator_node(c.op, {"a", "b"}), "]"));
-      const auto evaluator = [](const v1::Scene& s) { return reference::Evaluator(test_support::read_or_die(s)); };
-      const reference::Evaluator exact = evaluator(scene),
-                                 first = evaluator(test_support::scene_of_nodes("[" + a + "]")),
-                                 second = evaluator(test_support::scene_of_nodes("[" + b + "]"));
+      const reference::Evaluator exact(test_support::read_or_die(scene));
       const std::vector<reference::Sample> device = DeviceField(scene).samples(points);
       for (std::size_t i = 0; i < points.size(); ++i) {
         const dvec3& p = points[i];
-        const double f1 = first.value(p), f2 = second.value(p);
-        if (is_known_to_fail(c.op, f1, f2)) continue;
         const reference::Sample s = exact.evaluate(p);
         const auto where = [&] { return absl::StrCat(pair.name, " at ", p.x, " ", p.y, " ", p.z); };
         for (const reference::Sample* sample : {&s, &device[i]}) {
@@ -366,10 +352,9 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesOnDegenerateShapes) {
   test_support::figure("points on creases", 100.0 * static_cast<double>(creases) / static_cast<double>(compared), "%");
 }
 
-// Fails at 1e-30: 1 instead of 1.4e-30, since squares of such fields are 0 in float32. Fields of primitives are no less
-// than 1.7e-21 where they are not 0, whose squares are denormal: a device that flushes those fails there, too, and has
-// specks inside where two primitives end at the same place.
-TEST(PaperDegenerate, DISABLED_CleanUnionOfTinyFieldsIsTiny) {
+// Squares of such fields are 0 in float32. Fields of primitives are no less than 1.7e-21 where they are not 0; a device
+// that flushes denormals would have specks inside where two primitives end at the same place.
+TEST(PaperDegenerate, CleanUnionOfTinyFieldsIsTiny) {
   const Case clean{"clean", of_kind(Kind::kClean)};
   for (const float f : {1e-18f, 1e-19f, 1e-20f, 1e-30f}) EXPECT_LT(on_device(clean, {f, f})[0], 1e-17f) << f;
   const v1::Scene scene = test_support::scene_of_nodes(
@@ -381,8 +366,8 @@ TEST(PaperDegenerate, DISABLED_CleanUnionOfTinyFieldsIsTiny) {
   for (const double value : DeviceField(scene).values(points)) EXPECT_LT(value, 0.5);
 }
 
-// Fails: NaN in the reference, 0 / 0 where both fields are 0.5 but for rounding.
-TEST(PaperDegenerate, DISABLED_CleanUnionOfTwoFieldsOfAHalfIsFinite) {
+// Its arcs have no radius where both fields are 0.5 but for rounding.
+TEST(PaperDegenerate, CleanUnionOfTwoFieldsOfAHalfIsFinite) {
   for (const double f1 : {0.5, std::nextafter(0.5, 1.0), 0.5 + 4e-16}) {
     for (const double f2 : {0.5, std::nextafter(0.5, 1.0), std::nextafter(0.5, 0.0)}) {
       const reference::FieldState e = exact(of_kind(Kind::kClean), {f1, f2});
@@ -391,8 +376,8 @@ TEST(PaperDegenerate, DISABLED_CleanUnionOfTwoFieldsOfAHalfIsFinite) {
   }
 }
 
-// Fails: the 64th power of the depth inside overflows in float32, from a depth of three ranges on.
-TEST(PaperDegenerate, DISABLED_ASuperellipticBlendIsFiniteDeepInside) {
+// The 64th power of the depth inside would overflow in float32 from a depth of three ranges on.
+TEST(PaperDegenerate, ASuperellipticBlendIsFiniteDeepInside) {
   const v1::Scene scene = test_support::scene_of_nodes(
       R"([{"name": "a", "sphere": {"radius": 1, "law": "SIGNED"}},
           {"name": "b", "sphere": {"center": [1, 0, 0], "radius": 1, "law": "SIGNED"}},
