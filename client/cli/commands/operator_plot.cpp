@@ -120,10 +120,15 @@ absl::StatusOr<std::vector<Segment>> find_boundary(const OperatorPlot& plot, con
   v1::EvaluateOperatorRequest request;
   *request.mutable_inline_() = message;
   const v1::Form form = take_form(*request.mutable_inline_());
-  if (message.has_gradient()) {
-    // Its boundary does not depend on these, and is sharpest without them.
-    request.mutable_inline_()->mutable_gradient()->clear_silhouette();
-    request.mutable_inline_()->mutable_gradient()->clear_volume();
+  v1::Operator& blend = *request.mutable_inline_();
+  // The boundary does not depend on what is changed here, and is sharpest without it: high powers underflow near it.
+  if (blend.has_gradient()) {
+    blend.mutable_gradient()->clear_silhouette();
+    blend.mutable_gradient()->clear_volume();
+  } else if (blend.has_superelliptic()) {
+    blend.mutable_superelliptic()->set_exponent(2);
+  } else if (blend.has_btk()) {
+    blend.mutable_btk()->clear_powers();
   }
   const bool turns_x = form == v1::INTERSECTION || form == v1::DIFFERENCE, turns_y = form == v1::INTERSECTION;
   // A difference turns the gradient of its first operand round.
