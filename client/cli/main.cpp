@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "commands/context.h"
 #include "exit_codes.h"
@@ -21,7 +23,7 @@ int main(int argc, char** argv) {
       ->envname("ISOFIELD_SERVER")
       ->default_str("127.0.0.1:50051");
   app.add_option("--timeout", context.timeout, "Seconds for each request (default: 60; none for meshes and streams)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Validator(check_positive, "above 0"));
   app.add_flag("--json", context.json, "One JSON object on the standard output, for machines");
   add_catalog_commands(app, context);
   add_import_command(app, context);
@@ -32,7 +34,14 @@ int main(int argc, char** argv) {
   add_info_command(app, context);
   context.server = "127.0.0.1:50051";
   try {
-    app.parse(argc, argv);
+    // "-.5" is a number; CLI11 would take it for an option.
+    std::vector<std::string> arguments(argv, argv + argc);
+    for (std::string& text : arguments) {
+      if (text.size() > 2 && text[0] == '-' && text[1] == '.' && text[2] >= '0' && text[2] <= '9') text.insert(1, "0");
+    }
+    std::vector<const char*> texts;
+    for (const std::string& text : arguments) texts.push_back(text.c_str());
+    app.parse(argc, texts.data());
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kSuccess : kWrongUsage;
   }

@@ -61,6 +61,18 @@ absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(const std::string
   return std::unique_ptr<OutputFile>(new OutputFile(path, temporary, descriptor));
 }
 
+absl::Status OutputFile::check(const std::string& path) {
+  struct stat information {};
+  if (path == "-") return absl::OkStatus();
+  if (::stat(path.c_str(), &information) == 0 && !S_ISREG(information.st_mode)) {
+    if (S_ISDIR(information.st_mode)) errno = EISDIR;
+    return !S_ISDIR(information.st_mode) && ::access(path.c_str(), W_OK) == 0 ? absl::OkStatus() : error(path);
+  }
+  const std::size_t slash = path.rfind('/');
+  const std::string directory = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  return ::access(directory.c_str(), W_OK | X_OK) == 0 ? absl::OkStatus() : error(path);
+}
+
 OutputFile::OutputFile(std::string path, std::string temporary, int descriptor)
     : path_(std::move(path)), temporary_(std::move(temporary)), descriptor_(descriptor) {
   buffer_.reserve(kBufferBytes);

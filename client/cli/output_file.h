@@ -19,6 +19,8 @@ namespace isofield {
 class OutputFile {
  public:
   static absl::StatusOr<std::unique_ptr<OutputFile>> create(const std::string& path);
+  // What create() is sure to fail with, such as a missing directory: to be asked before long work. Creates nothing.
+  static absl::Status check(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;

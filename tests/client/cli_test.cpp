@@ -28,6 +28,7 @@ TEST_F(CliTest, KeepsScenes) {
   EXPECT_EQ(run("edit other ball.center=a"), 2);
   EXPECT_EQ(run("edit other nothing.center=1"), 1);
   EXPECT_EQ(run("rm other"), 0);
+  EXPECT_EQ(out_, "other: deleted\n");
   EXPECT_EQ(run("rm other"), 1);
   EXPECT_TRUE(absl::StrContains(err_, "no scene \"other\"")) << err_;
   EXPECT_EQ(run("--json info"), 0);
@@ -70,9 +71,18 @@ TEST_F(CliTest, MeshesAndRenders) {
   EXPECT_EQ(run("render " + path("ball.json") + " --size 64x48 --view top -o " + path("a.png")), 0) << err_;
   EXPECT_EQ(read_file(path("a.png"))->substr(1, 3), "PNG");
   EXPECT_EQ(run("mesh " + path("ball.json") + " -o " + path("a.xyz")), 2);
-  EXPECT_EQ(run("mesh " + path("ball.json") + " --cell 0 -o " + path("a.glb")), 2);
+  for (const char* cell : {"0", "-1", "nan", "inf", "x"}) {
+    EXPECT_EQ(run("mesh " + path("ball.json") + " --cell " + cell + " -o " + path("a.glb")), 2) << cell;
+    EXPECT_LT(err_.size(), 160u) << err_;
+  }
   EXPECT_EQ(run("mesh " + path("ball.json") + " --cell 1 --resolution 4 -o " + path("a.glb")), 2);
+  const int reads = server_.reads;
   EXPECT_EQ(run("mesh " + path("ball.json") + " -o /no/such/directory/a.glb"), 4);
+  EXPECT_EQ(run("render " + path("ball.json") + " -o /no/such/directory/a.png"), 4);
+  EXPECT_EQ(run("eval " + path("ball.json") + " --points - -o /no/such/directory/a.csv", "1 2 3\n"), 4);
+  EXPECT_EQ(server_.reads, reads) << "before anything is asked for";
+  EXPECT_EQ(run("mesh " + path("ball.json") + " --iso 2 -o " + path("a.glb")), 1);
+  EXPECT_TRUE(absl::StrContains(err_, "stated bounds (--bounds)")) << err_;
   EXPECT_EQ(run("render " + path("ball.json") + " --size 64 -o " + path("a.png")), 2);
   EXPECT_EQ(run("mesh none -o " + path("none.glb")), 1);
 }

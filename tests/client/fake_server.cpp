@@ -175,6 +175,9 @@ class FakeServer::Meshes : public v1::MeshService::Service {
                     grpc::ServerWriter<v1::MeshResponse>* writer) override {
     if (auto status = owner_.admit_read(); !status.ok()) return status;
     if (auto status = owner_.find(request->scene()); !status.ok()) return status;
+    if (request->iso() > 1 && request->bounds_min().empty()) {
+      return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "iso: expected with stated bounds");
+    }
     v1::MeshResponse response;
     for (int step = 0; step < 4 || owner_.endless_mesh; ++step) {
       response.mutable_progress()->set_fraction(std::min(0.9, 0.25 * step));
@@ -251,7 +254,11 @@ class FakeServer::Operators : public v1::OperatorService::Service {
     if (auto status = owner_.admit_read(); !status.ok()) return status;
     const std::lock_guard lock(owner_.mutex_);
     const auto found = owner_.operator_catalog_.find(request->name());
-    if (found == owner_.operator_catalog_.end()) return no_operator(request->name());
+    if (found == owner_.operator_catalog_.end()) {
+      if (request->name() != "ricci") return no_operator(request->name());
+      response->mutable_operator_()->mutable_ricci();
+      return grpc::Status::OK;
+    }
     *response = found->second;
     return grpc::Status::OK;
   }

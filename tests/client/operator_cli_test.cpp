@@ -22,9 +22,19 @@ TEST_F(OperatorCliTest, KeepsOperators) {
   const auto shown = read_operator_file(path("again.json"));
   ASSERT_TRUE(shown.ok()) << shown.status();
   EXPECT_EQ(shown->gradient().silhouette().k(), 0.5);
+  EXPECT_EQ(err_, "") << "no list of parameters";
   EXPECT_EQ(run("operator rm other"), 0);
+  EXPECT_EQ(out_, "other: deleted\n");
   EXPECT_EQ(run("operator rm other"), 1);
   EXPECT_TRUE(absl::StrContains(err_, "no operator \"other\"")) << err_;
+}
+
+TEST_F(OperatorCliTest, ShowsWhatABuiltInOperatorTakes) {
+  EXPECT_EQ(run("operator show ricci"), 0);
+  EXPECT_TRUE(absl::StrContains(out_, "{\"ricci\":") && !absl::StrContains(out_, "parameters")) << out_;
+  EXPECT_EQ(err_, "parameters:\n  exponent: a number\n");
+  EXPECT_EQ(run("operator show ricci --json"), 0);
+  EXPECT_EQ(err_, "");
 }
 
 TEST_F(OperatorCliTest, KeepsTheExample) {
@@ -94,13 +104,18 @@ TEST_F(OperatorCliTest, DrawsOperatorsAndOpenings) {
   EXPECT_EQ(run("operator plot gradient --theta 46 -o " + path("q.png")), 2);
   EXPECT_EQ(run("operator plot gradient --theta 1 --alpha 1 -o " + path("q.png")), 2);
   EXPECT_EQ(run("operator plot gradient -o " + path("q.jpg")), 2);
+  const int reads = server_.reads;
   EXPECT_EQ(run("operator plot gradient -o /no/such/directory/q.png"), 4);
+  EXPECT_EQ(run("operator eval clean --points - -o /no/such/directory/q.csv", "f1,f2\n1,2\n"), 4);
+  EXPECT_EQ(server_.reads, reads) << "before anything is asked for";
 }
 
 TEST_F(OperatorCliTest, PicksOpenings) {
   write_file(path("s.json"), R"({"nodes": [{"sphere": {"radius": 1, "range": 1}}]})");
   EXPECT_EQ(run("operator pick " + path("s.json") + " top 20 -30.5 0.5"), 0) << err_;
   EXPECT_EQ(out_, "theta = 20 at alpha = -30.5 degrees; f1 = 0.5, f2 = 0\n");
+  EXPECT_EQ(run("operator pick " + path("s.json") + " top 20 -.5 .25"), 0) << err_;
+  EXPECT_EQ(out_, "theta = 20 at alpha = -0.5 degrees; f1 = 0.25, f2 = 0\n");
   EXPECT_EQ(run("operator pick none top 1 2 3"), 1);
   EXPECT_EQ(run("operator pick " + path("s.json") + " top 1 2"), 2);
 }

@@ -58,6 +58,14 @@ TEST(OperatorParameters, RefusalsSayWhatThereIs) {
   expect_refused(set_parameter("k=1", sum), {"has none"});
 }
 
+TEST(OperatorParameters, AreDescribed) {
+  EXPECT_EQ(
+      parameter_descriptions(v1::SuperellipticBlend()),
+      (std::vector<std::string>{"exponent: a number", "ranges: numbers separated by commas", "by_angle: true or false",
+                                "omega: a number", "form: one of union, intersection, difference"}));
+  EXPECT_TRUE(parameter_descriptions(v1::Sum()).empty());
+}
+
 v1::Operator with_kind(const std::string& name) {
   v1::Operator message;
   message.GetReflection()->MutableMessage(&message, v1::Operator::descriptor()->FindFieldByName(name));

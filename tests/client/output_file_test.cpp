@@ -32,6 +32,17 @@ TEST(OutputFile, AppearsOnCommitOnly) {
   EXPECT_EQ(directory.file_count(), 1u);
 }
 
+TEST(OutputFile, PlacesAreCheckedBeforehand) {
+  const TemporaryDirectory directory;
+  for (const std::string& good :
+       {directory.path("new"), std::string("-"), std::string("/dev/null"), std::string("here")}) {
+    EXPECT_TRUE(OutputFile::check(good).ok()) << good << OutputFile::check(good);
+  }
+  EXPECT_EQ(directory.file_count(), 0u);
+  EXPECT_EQ(OutputFile::check(directory.path("no/such/directory")).code(), absl::StatusCode::kNotFound);
+  EXPECT_FALSE(OutputFile::check(directory.path("")).ok()) << "a directory itself";
+}
+
 TEST(OutputFile, UnwritablePlacesAreErrors) {
   const TemporaryDirectory directory;
   const auto file = OutputFile::create(directory.path("no/such/directory"));

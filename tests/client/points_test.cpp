@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "isofield/scene_file.h"
+#include "points/line_reader.h"
 #include "points/point_reader.h"
 #include "points/result_writer.h"
 #include "test_support.h"
@@ -73,6 +74,13 @@ TEST_F(PointsTest, BadTextNamesFileLineAndExpectation) {
   EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,3,4\n"), "no more"));
   EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,3x\n"), "expected three numbers"));
   EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,3\n" + std::string(2 << 20, '1')), "a.csv:2: a line longer"));
+}
+
+TEST_F(PointsTest, ExcerptsAreShortAndPrintable) {
+  EXPECT_EQ(excerpt("1, 2"), "1, 2");
+  EXPECT_EQ(excerpt("a\tb\x1b[0m\xc3\xa9"), "a b?[0m??");
+  EXPECT_EQ(excerpt(std::string(80, 'x')), std::string(80, 'x'));
+  EXPECT_EQ(excerpt(std::string(5000, 'x')), std::string(77, 'x') + "...");
 }
 
 TEST_F(PointsTest, TextLongerThanABlock) {

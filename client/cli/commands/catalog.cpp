@@ -80,7 +80,11 @@ absl::Status remove(const Context& context, const std::string& name) {
   auto client = context.connect();
   if (!client.ok()) return client.status();
   if (auto status = client->delete_scene(name); !status.ok()) return status;
-  if (context.json) JsonObject().set("deleted", name).print();
+  if (context.json) {
+    JsonObject().set("deleted", name).print();
+  } else {
+    std::printf("%s: deleted\n", name.c_str());
+  }
   return absl::OkStatus();
 }
 

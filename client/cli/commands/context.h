@@ -2,7 +2,10 @@
 
 #include <absl/status/status.h>
 #include <absl/status/statusor.h>
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_cat.h>
 
+#include <cmath>
 #include <string>
 
 #include "isofield/client.h"
@@ -24,6 +27,13 @@ struct Context {
 
   absl::StatusOr<Client> connect() const;
 };
+
+// What an option above 0 is checked with; CLI11's own check passes NaN, and its messages print the greatest double.
+inline std::string check_positive(const std::string& text) {
+  double value = 0;
+  const bool is_good = absl::SimpleAtod(text, &value) && value > 0 && std::isfinite(value);
+  return is_good ? "" : absl::StrCat("expected a finite number above 0, not ", text.substr(0, 40));
+}
 
 // Each adds its commands to the command line, and runs the chosen one when it is parsed.
 void add_catalog_commands(CLI::App& app, Context& context);  // put, ls, show, rm, edit

@@ -27,6 +27,7 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
   if (arguments.output == "-" && context.json) {
     return usage_error("--json and results on the standard output do not go together; state -o FILE");
   }
+  if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
   const auto scene = scene_argument(arguments.scene, arguments.flags.get());
   if (!scene.ok()) return scene.status();
   auto reader = open_points(arguments.points);

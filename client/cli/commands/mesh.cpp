@@ -20,6 +20,7 @@ absl::Status mesh(const Context& context, const MeshFlags& flags, const std::str
     return usage_error(
         absl::StrCat(output, ": not a mesh format that can be written; expected .glb, .obj, .ply or .stl"));
   }
+  if (auto status = OutputFile::check(output); !status.ok()) return file_error(status);
   double seconds = 0;
   const auto mesh = flags.request(context, seconds);
   if (!mesh.ok()) return mesh.status();

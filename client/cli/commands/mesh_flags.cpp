@@ -1,5 +1,7 @@
 #include "commands/mesh_flags.h"
 
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,13 +11,14 @@
 #include "progress_line.h"
 
 namespace isofield {
+
 void MeshFlags::add_to(CLI::App& command) {
   command.add_option("SCENE", scene, "A file, or else a name on the server")->required();
   auto* cell_option =
       command
           .add_option("--cell", cell,
                       "Edge length of a cell, in model units (default: chosen by the server after the thinnest part)")
-          ->check(CLI::PositiveNumber);
+          ->check(CLI::Validator(check_positive, "above 0"));
   command.add_option("--resolution", resolution, "Cells along the longest edge of the bounds")
       ->check(CLI::Range(1, 1048576))
       ->excludes(cell_option);
@@ -52,6 +55,10 @@ absl::StatusOr<Mesh> MeshFlags::request(const Context& context, double& seconds)
     return true;
   });
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (bounds.empty() && absl::IsInvalidArgument(mesh.status()) &&
+      absl::StrContains(mesh.status().message(), "bounds")) {
+    return absl::InvalidArgumentError(absl::StrCat(mesh.status().message(), " (--bounds)"));
+  }
   return mesh;
 }
 

@@ -12,6 +12,7 @@
 #include "exit_codes.h"
 #include "isofield/operator_file.h"
 #include "json_output.h"
+#include "operators/parameters.h"
 
 namespace isofield {
 namespace {
@@ -63,6 +64,14 @@ absl::Status list(const Context& context) {
   return absl::OkStatus();
 }
 
+// Of the kind that an operator is.
+std::vector<std::string> list_parameters(const v1::Operator& message) {
+  const auto* kinds = v1::Operator::descriptor()->FindOneofByName("kind");
+  const auto* kind = message.GetReflection()->GetOneofFieldDescriptor(message, kinds);
+  if (!kind) return {};
+  return parameter_descriptions(message.GetReflection()->GetMessage(message, kind));
+}
+
 absl::Status show(const Context& context, const std::string& name) {
   auto client = context.connect();
   if (!client.ok()) return client.status();
@@ -75,6 +84,13 @@ absl::Status show(const Context& context, const std::string& name) {
   const auto text = format_operator_json(response->operator_());
   if (!text.ok()) return text.status();
   std::fwrite(text->data(), 1, text->size(), stdout);
+  // A built-in operator has no field set: what there is to set. Not on the standard output, which is a file to be put.
+  if (response->summary().version() == 0) {
+    std::fflush(stdout);
+    const std::vector<std::string> lines = list_parameters(response->operator_());
+    absl::FPrintF(stderr, "%s\n", lines.empty() ? "no parameters" : "parameters:");
+    for (const std::string& line : lines) absl::FPrintF(stderr, "  %s\n", line);
+  }
   return absl::OkStatus();
 }
 
@@ -82,7 +98,11 @@ absl::Status remove(const Context& context, const std::string& name) {
   auto client = context.connect();
   if (!client.ok()) return client.status();
   if (auto status = client->delete_operator(name); !status.ok()) return status;
-  if (context.json) JsonObject().set("deleted", name).print();
+  if (context.json) {
+    JsonObject().set("deleted", name).print();
+  } else {
+    absl::PrintF("%s: deleted\n", name);
+  }
   return absl::OkStatus();
 }
 
@@ -121,7 +141,7 @@ void add_operator_commands(CLI::App& app, Context& context) {
   CLI::App* command = all->add_subcommand("ls", "List the built-in operators and the server's custom ones");
   command->callback([&context] { context.outcome = list(context); });
 
-  command = all->add_subcommand("show", "Print an operator as JSON");
+  command = all->add_subcommand("show", "Print an operator as JSON, and the parameters that a built-in one takes");
   command->add_option("NAME", arguments->name)->required();
   command->callback([&context, arguments] { context.outcome = show(context, arguments->name); });
 

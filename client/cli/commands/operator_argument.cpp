@@ -32,8 +32,8 @@ void OperatorArgument::add_to(CLI::App& command) {
   command.add_option("NAME", name, "A built-in operator, a custom one of the server, or \"opening\"")->required();
   command
       .add_option("--param", parameters,
-                  "NAME=VALUE, once for each: a field of the operator, or of its opening or silhouette, such as "
-                  "silhouette=bulge k=0.8 theta0=30")
+                  "NAME=VALUE: a field of the operator, or of its opening or silhouette (`operator show` lists them). "
+                  "Once for each: --param silhouette=bulge --param k=0.8")
       ->allow_extra_args(false);
 }
 

@@ -12,6 +12,7 @@
 #include "operators/argument_columns.h"
 #include "operators/argument_table.h"
 #include "output_file.h"
+#include "points/line_reader.h"
 
 namespace isofield {
 namespace {
@@ -26,7 +27,7 @@ absl::StatusOr<std::vector<std::string>> columns_for(const OperatorArgument& op,
   if (!op.is_opening()) return choose_columns(chosen.message, header);
   if (std::find(header.begin(), header.end(), "alpha") != header.end()) return std::vector<std::string>{"alpha"};
   return absl::InvalidArgumentError(
-      absl::StrCat("the columns are ", absl::StrJoin(header, ", ").substr(0, 60), "; expected alpha (radians)"));
+      absl::StrCat("the columns are ", excerpt(absl::StrJoin(header, ", ")), "; expected alpha (radians)"));
 }
 
 // Nine significant digits give a float32 back to the bit.
@@ -45,6 +46,7 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
   if (arguments.output == "-" && context.json) {
     return usage_error("--json and results on the standard output do not go together; state -o FILE");
   }
+  if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
   auto client = context.connect();
   if (!client.ok()) return client.status();
   auto chosen = choose_operator(arguments.op, *client);

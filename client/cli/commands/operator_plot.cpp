@@ -16,6 +16,7 @@
 #include "operators/argument_columns.h"
 #include "output_file.h"
 #include "plot/opening_plot.h"
+#include "plot/region_outline.h"
 
 namespace isofield {
 namespace {
@@ -30,63 +31,127 @@ struct PlotArguments {
   int size = 360;
 };
 
-// What the operator is where it blends nothing; nothing: there is no such place.
-enum class Unblended { kNowhere, kMax, kMin };
+// Takes the form out of an operator, which leaves the union.
+v1::Form take_form(v1::Operator& message) {
+  const auto* kinds = v1::Operator::descriptor()->FindOneofByName("kind");
+  const auto* reflection = message.GetReflection();
+  auto& kind = *reflection->MutableMessage(&message, reflection->GetOneofFieldDescriptor(message, kinds));
+  const auto* field = kind.GetDescriptor()->FindFieldByName("form");
+  if (!field) return v1::UNION;
+  const auto form = static_cast<v1::Form>(kind.GetReflection()->GetEnumValue(kind, field));
+  kind.GetReflection()->ClearField(&kind, field);
+  return form;
+}
 
-v1::Form form_of(const v1::Operator& message) {
+// Whether there are places where an operand alone decides on g, and others where both do. Samples tell them apart only
+// to a cell.
+bool has_boundary(const v1::Operator& message) {
   switch (message.kind_case()) {
     case v1::Operator::kGradient:
-      return message.gradient().form();
-    case v1::Operator::kSampled:
-      return message.sampled().form();
+      // A bulge of 0 blends nothing.
+      return message.gradient().silhouette().kind() != v1::Silhouette::BULGE ||
+             message.gradient().silhouette().k() != 0;
+    case v1::Operator::kClean:
     case v1::Operator::kBarthe:
-      return message.barthe().form();
+    case v1::Operator::kBernhardt:
+    case v1::Operator::kSuperelliptic:
     case v1::Operator::kBt2:
-      return message.bt2().form();
     case v1::Operator::kBtk:
-      return message.btk().form();
+      return true;
     default:
-      return v1::FORM_UNSPECIFIED;
+      return false;
   }
 }
 
-Unblended unblended_of(const v1::Operator& message, bool is_signed) {
-  switch (message.kind_case()) {
-    case v1::Operator::kGradient:
-    case v1::Operator::kSampled:
-    case v1::Operator::kBarthe:
-      break;
-    case v1::Operator::kBt2:
-      if (message.bt2().has_m1() || message.bt2().has_m2()) return Unblended::kNowhere;
-      break;
-    case v1::Operator::kBtk:
-      if (message.btk().weights_size() > 0) return Unblended::kNowhere;
-      break;
-    default:
-      return Unblended::kNowhere;
-  }
-  switch (form_of(message)) {
-    case v1::INTERSECTION:
-      return is_signed ? Unblended::kMax : Unblended::kMin;
-    case v1::DIFFERENCE:
-      return Unblended::kNowhere;  // its boundaries do not run from the axes to the diagonal
-    default:
-      return is_signed ? Unblended::kMin : Unblended::kMax;
-  }
-}
-
-// The largest range that the operator states, or 1: what its plane is scaled to.
+// The largest range or coordinate that the operator states, or 1: what its plane is scaled to.
 double scale_of(const v1::Operator& message) {
   double scale = 0;
   for (const double range : message.superelliptic().ranges()) scale = std::max(scale, range);
   for (const double range : message.btk().ranges()) scale = std::max(scale, range);
   scale = std::max({scale, message.bt2().r1(), message.bt2().r2()});
+  for (const double x : message.functional().x()) scale = std::max(scale, std::abs(x));
+  for (const double h : message.functional().h()) scale = std::max(scale, std::abs(h));
   if (message.has_pasko()) scale = std::max(message.pasko().a1(), message.pasko().a2());
   return scale > 0 && std::isfinite(scale) ? scale : 1;
 }
 
+// The operator as the command line states it, of so many characters at most.
+std::string heading_of(const OperatorArgument& op, std::size_t most) {
+  std::string heading = op.name;
+  for (const std::string& parameter : op.parameters) absl::StrAppend(&heading, " ", parameter);
+  return heading.size() > most ? heading.substr(0, most - 3) + "..." : heading;
+}
+
+// What a plot samples: columns of the two operands, and of the angle where there is one.
+struct Sampler {
+  Client& client;
+  std::vector<std::string> columns;
+
+  // The rows of the response: g and the partials by both operands come first. `angle`: radians; counts where there is a
+  // column for it.
+  absl::StatusOr<OperatorValues> sample(v1::EvaluateOperatorRequest request, const std::vector<Point>& points,
+                                        double angle) const {
+    request.clear_columns();
+    for (const std::string& column : columns) request.add_columns(column);
+    OperatorValues all;
+    for (std::size_t start = 0; start < points.size(); start += Client::kChunkPoints) {
+      std::vector<float> rows;
+      for (std::size_t i = start; i < std::min(points.size(), start + Client::kChunkPoints); ++i) {
+        rows.push_back(static_cast<float>(points[i].x));
+        rows.push_back(static_cast<float>(points[i].y));
+        if (columns.size() > 2) rows.push_back(static_cast<float>(angle));
+      }
+      auto results = client.evaluate_operator(request, rows);
+      if (!results.ok()) return results.status();
+      if (results->columns.size() < 3) return absl::InternalError("the server sent no partials of the operator");
+      all.columns = results->columns;
+      all.values.insert(all.values.end(), results->values.begin(), results->values.end());
+    }
+    return all;
+  }
+};
+
+// Where the blend begins: on one side an operand alone decides on g, on the other both do.
+absl::StatusOr<std::vector<Segment>> find_boundary(const OperatorPlot& plot, const v1::Operator& message,
+                                                   const Sampler& sampler, double angle, int cells) {
+  if (!has_boundary(message)) return std::vector<Segment>();
+  // Of the union: for other forms the operands are turned instead, so that the sides of the frame, where those are
+  // clamped, make no boundary.
+  v1::EvaluateOperatorRequest request;
+  *request.mutable_inline_() = message;
+  const v1::Form form = take_form(*request.mutable_inline_());
+  v1::Operator& blend = *request.mutable_inline_();
+  // The boundary does not depend on what is changed here, and is sharpest without it: high powers underflow near it.
+  if (blend.has_gradient()) {
+    blend.mutable_gradient()->clear_silhouette();
+    blend.mutable_gradient()->clear_volume();
+  } else if (blend.has_superelliptic()) {
+    blend.mutable_superelliptic()->set_exponent(2);
+  } else if (blend.has_btk()) {
+    blend.mutable_btk()->clear_powers();
+  }
+  const bool turns_x = form == v1::INTERSECTION || form == v1::DIFFERENCE, turns_y = form == v1::INTERSECTION;
+  // A difference turns the gradient of its first operand round.
+  const bool by_alpha = sampler.columns.size() > 2 && sampler.columns[2] == "alpha";
+  if (form == v1::DIFFERENCE && by_alpha) angle = std::numbers::pi - angle;
+  const double whole = plot.inside_above ? 1 : 0;  // what a field and its complement add up to
+  return region_outline(plot.low, plot.high, cells,
+                        [&](std::vector<Point> points) -> absl::StatusOr<std::vector<char>> {
+                          for (Point& p : points) p = {turns_x ? whole - p.x : p.x, turns_y ? whole - p.y : p.y};
+                          const auto results = sampler.sample(request, points, angle);
+                          if (!results.ok()) return results.status();
+                          std::vector<char> inside;
+                          for (std::size_t at = 0; at < results->values.size(); at += results->columns.size()) {
+                            // Operators return exactly 0 as the partial by an operand that does not count.
+                            inside.push_back(results->values[at + 1] != 0 && results->values[at + 2] != 0);
+                          }
+                          return inside;
+                        });
+}
+
 // One panel for each angle; without angles one.
-absl::StatusOr<OperatorPlot> sample_operator(const PlotArguments& arguments, ChosenOperator chosen, Client& client) {
+absl::StatusOr<OperatorPlot> sample_operator(const PlotArguments& arguments, const ChosenOperator& chosen,
+                                             Client& client) {
   const OperatorArity arity = arity_of(chosen.message);
   const bool is_signed = arity.law == OperatorArity::Law::kSigned;
   const bool takes_angle = arity.is_steered || arity.by_angle;
@@ -102,44 +167,40 @@ absl::StatusOr<OperatorPlot> sample_operator(const PlotArguments& arguments, Cho
     angles = by_alpha ? std::vector<double>{0, 45, 90, 135, 180} : std::vector<double>{0, 11.25, 22.5, 33.75, 45};
   }
   OperatorPlot plot;
+  plot.heading = heading_of(arguments.op, 512);
   plot.x_name = is_signed ? "x1" : "f1";
   plot.y_name = is_signed ? "x2" : "f2";
   if (is_signed) {
     const double scale = scale_of(chosen.message);
     plot.low = -scale;
     plot.high = 2 * scale;
-    plot.step = 0.1 * scale;
+    // All but the super-elliptic blend, which is 1 beyond its ranges, yield distances.
+    if (!chosen.message.has_superelliptic()) plot.step = 0.1 * scale;
     plot.surface = 0;
     plot.inside_above = false;
   }
-  // A cell of two pixels.
+  // A cell of two pixels, and one of a pixel for the boundary.
   plot.side = std::clamp(arguments.size / 2, 64, 256);
-  const Unblended unblended = unblended_of(chosen.message, is_signed);
-  chosen.request.add_columns(plot.x_name);
-  chosen.request.add_columns(plot.y_name);
-  if (takes_angle) chosen.request.add_columns(by_alpha ? "alpha" : "theta");
+  const int boundary_cells = std::clamp(arguments.size, 128, 512);
+  Sampler sampler{client, {plot.x_name, plot.y_name}};
+  if (takes_angle) sampler.columns.push_back(by_alpha ? "alpha" : "theta");
+  std::vector<Point> points;
+  const double step = (plot.high - plot.low) / (plot.side - 1);
+  for (int j = 0; j < plot.side; ++j) {
+    for (int i = 0; i < plot.side; ++i) points.push_back({plot.low + step * i, plot.low + step * j});
+  }
   for (std::size_t panel = 0; panel < std::max<std::size_t>(angles.size(), 1); ++panel) {
-    std::vector<float> rows;
-    for (int j = 0; j < plot.side; ++j) {
-      for (int i = 0; i < plot.side; ++i) {
-        const double step = (plot.high - plot.low) / (plot.side - 1);
-        rows.push_back(static_cast<float>(plot.low + step * i));
-        rows.push_back(static_cast<float>(plot.low + step * j));
-        if (panel == 0 && unblended != Unblended::kNowhere) {
-          const auto [least, most] = std::minmax(rows[rows.size() - 2], rows.back());
-          plot.unblended.push_back(unblended == Unblended::kMin ? least : most);
-        }
-        if (takes_angle) rows.push_back(static_cast<float>(angles[panel] * kRadians));
-      }
-    }
-    const auto results = client.evaluate_operator(chosen.request, rows);
+    const double angle = takes_angle ? angles[panel] * kRadians : 0;
+    const auto results = sampler.sample(chosen.request, points, angle);
     if (!results.ok()) return results.status();
     OperatorPlot::Panel& out = plot.panels.emplace_back();
-    out.title =
-        takes_angle ? absl::StrFormat("%s = %g deg", by_alpha ? "alpha" : "theta", angles[panel]) : arguments.op.name;
+    if (takes_angle) out.title = absl::StrFormat("%s = %g deg", by_alpha ? "alpha" : "theta", angles[panel]);
     for (std::size_t at = 0; at < results->values.size(); at += results->columns.size()) {
       out.g.push_back(results->values[at]);
     }
+    auto boundary = find_boundary(plot, chosen.message, sampler, angle, boundary_cells);
+    if (!boundary.ok()) return boundary.status();
+    out.boundary = *std::move(boundary);
   }
   return plot;
 }
@@ -173,7 +234,7 @@ absl::StatusOr<Image> plot_opening(const PlotArguments& arguments, const ChosenO
   };
   absl::Status status;
   if (!arguments.op.parameters.empty()) {
-    status = add("opening", chosen.request);
+    status = add(heading_of(arguments.op, 44), chosen.request);
   } else {
     for (const auto& [name, preset] :
          {std::pair("camel", v1::Opening::CAMEL), std::pair("organic", v1::Opening::ORGANIC),
@@ -191,6 +252,7 @@ absl::Status plot(const Context& context, const PlotArguments& arguments) {
   if (!absl::EndsWithIgnoreCase(arguments.output, ".png")) {
     return usage_error(absl::StrCat(arguments.output, ": not a picture that can be written; expected .png"));
   }
+  if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
   auto client = context.connect();
   if (!client.ok()) return client.status();
   const auto chosen = choose_operator(arguments.op, *client);

@@ -50,6 +50,7 @@ absl::Status render_scene(const Context& context, const RenderArguments& argumen
   if (!arguments.view.empty()) options.view = named_views().at(arguments.view);
   options.view.azimuth = arguments.azimuth.value_or(options.view.azimuth);
   options.view.elevation = arguments.elevation.value_or(options.view.elevation);
+  if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
 
   double seconds = 0;
   const auto mesh = arguments.flags.request(context, seconds);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "points/line_reader.h"
+
 namespace isofield {
 namespace {
 
@@ -14,7 +16,7 @@ using Law = OperatorArity::Law;
 
 absl::Status refuse(const std::vector<std::string>& there, const std::string& expected) {
   return absl::InvalidArgumentError(
-      absl::StrCat("the columns are ", absl::StrJoin(there, ", ").substr(0, 60), "; expected ", expected));
+      absl::StrCat("the columns are ", excerpt(absl::StrJoin(there, ", ")), "; expected ", expected));
 }
 
 }  // namespace

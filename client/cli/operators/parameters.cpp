@@ -123,6 +123,16 @@ std::vector<std::string> parameter_names(const Message& message) {
   return names;
 }
 
+std::vector<std::string> parameter_descriptions(const Message& message) {
+  std::vector<std::string> descriptions;
+  for (const Place& place : places_of(message)) {
+    // A message's name stands for the enum in it, which is listed by itself.
+    if (is_message(*place.field)) continue;
+    descriptions.push_back(absl::StrCat(place.name(), ": ", expected_value(*place.field)));
+  }
+  return descriptions;
+}
+
 absl::Status set_parameter(const std::string& assignment, Message& message) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) return refuse(assignment, "NAME=VALUE");

@@ -6,6 +6,7 @@
 #include "plot/axes.h"
 #include "plot/canvas.h"
 #include "plot/level_curves.h"
+#include "plot/stroke_font.h"
 
 namespace isofield {
 namespace {
@@ -14,8 +15,8 @@ constexpr Color kLevel{120, 140, 170};
 constexpr Color kSurface{20, 50, 110};
 constexpr Color kBoundary{214, 84, 30};
 constexpr Color kInside{229, 237, 248};
-// How far g is from the unblended value where the blend is said to begin.
-constexpr float kDeparture = 1e-4f;
+// Level curves nearer than this to each other, in pixels, are too dense, if more than that part of a curve is.
+constexpr double kLeastDistance = 4, kDensePart = 0.25;
 
 // From grid coordinates to pixels.
 std::vector<Segment> placed(std::vector<Segment> segments, const OperatorPlot& plot, const Axes& axes) {
@@ -41,52 +42,88 @@ void fill_inside(const OperatorPlot& plot, const std::vector<float>& g, const Ax
   }
 }
 
-// How far g has come from the unblended value on the way from the nearer axis: a fold inside the blend, where it comes
-// back to it, is no boundary.
-std::vector<float> departure_of(const OperatorPlot& plot, const std::vector<float>& g) {
-  std::vector<float> departure(g.size());
-  for (std::size_t i = 0; i < g.size(); ++i) departure[i] = std::abs(g[i] - plot.unblended[i]);
-  const std::size_t side = plot.side;
-  for (std::size_t along = 0; along < side; ++along) {
-    for (std::size_t i = 1; i <= along; ++i) {
-      float& in_row = departure[along * side + i];
-      in_row = std::max(in_row, departure[along * side + i - 1]);
-      if (i == along) break;  // the diagonal is the row's
-      float& in_column = departure[i * side + along];
-      in_column = std::max(in_column, departure[(i - 1) * side + along]);
-    }
+Point middle(const Segment& s) {
+  return {(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2};
+}
+
+// Both curves in the samples' coordinates; `near`: in those too.
+bool is_dense(const std::vector<Segment>& curve, const std::vector<Segment>& before, double near) {
+  std::size_t dense = 0;
+  for (const Segment& s : curve) {
+    const Point p = middle(s);
+    dense += std::any_of(before.begin(), before.end(), [&](const Segment& other) {
+      const Point q = middle(other);
+      return std::hypot(p.x - q.x, p.y - q.y) < near;
+    });
   }
-  return departure;
+  return static_cast<double>(dense) > kDensePart * static_cast<double>(curve.size());
 }
 
 void draw_panel(const OperatorPlot& plot, const OperatorPlot::Panel& panel, const Axes& axes, Canvas& canvas) {
   fill_inside(plot, panel.g, axes, canvas);
-  const auto [least, most] = std::minmax_element(panel.g.begin(), panel.g.end());
   std::vector<Segment> levels;
-  for (auto n = static_cast<long>(std::floor((*least - plot.surface) / plot.step));
-       plot.surface + n * plot.step <= *most; ++n) {
-    // A level at the very end of the values is an area, not a curve.
-    if (n == 0 || plot.surface + n * plot.step <= *least + 1e-6) continue;
-    const auto curve = level_curve(panel.g, plot.side, static_cast<float>(plot.surface + n * plot.step));
+  for (const float level : shown_levels(plot, panel.g, static_cast<int>(axes.width))) {
+    const auto curve = level_curve(panel.g, plot.side, level);
     levels.insert(levels.end(), curve.begin(), curve.end());
   }
   canvas.stroke(placed(std::move(levels), plot, axes), 1.1, kLevel);
   canvas.stroke(placed(level_curve(panel.g, plot.side, static_cast<float>(plot.surface)), plot, axes), 2.6, kSurface);
-  if (!plot.unblended.empty()) {
-    canvas.stroke(placed(level_curve(departure_of(plot, panel.g), plot.side, kDeparture), plot, axes), 1.8, kBoundary);
-  }
+  std::vector<Segment> boundary = panel.boundary;
+  for (Segment& s : boundary) s = {axes.place(s.a.x, s.a.y), axes.place(s.b.x, s.b.y)};
+  canvas.stroke(boundary, 1.8, kBoundary);
   axes.draw(canvas);
   canvas.text(panel.title, axes.left + axes.width / 2, axes.top - axes.text_height, 1.1 * axes.text_height, 0.5, kInk);
 }
 
+// The beginning of a text that is at most so wide.
+std::string fitted(std::string text, double height, double width) {
+  if (text_width(text, height) <= width) return text;
+  while (!text.empty() && text_width(text + "...", height) > width) text.pop_back();
+  return text + "...";
+}
+
 }  // namespace
+
+std::vector<float> shown_levels(const OperatorPlot& plot, const std::vector<float>& g, int size) {
+  const auto [least, most] = std::minmax_element(g.begin(), g.end());
+  const double near = kLeastDistance * (plot.side - 1) / size;
+  const auto surface = level_curve(g, plot.side, static_cast<float>(plot.surface));
+  std::vector<float> levels;
+  for (const int direction : {-1, 1}) {
+    auto before = surface;
+    // How many steps are left out grows as 1, 2, 5, 10, ...: fields may steepen without bound.
+    double decade = 1, factor = 1, last = 0;
+    while (true) {
+      const double next = (std::floor(last / (decade * factor) + 1e-6) + 1) * decade * factor;
+      const double level = plot.surface + direction * next * plot.step;
+      // A level at the very end of the values is an area, not a curve.
+      if (!(level > *least + 1e-6 && level <= *most)) break;
+      auto curve = level_curve(g, plot.side, static_cast<float>(level));
+      if (!before.empty() && is_dense(curve, before, near)) {
+        factor = factor == 1 ? 2 : factor == 2 ? 5 : 1;
+        if (factor == 1) decade *= 10;
+        continue;
+      }
+      levels.push_back(static_cast<float>(level));
+      if (!curve.empty()) before = std::move(curve);
+      last = next;
+    }
+  }
+  return levels;
+}
 
 Image draw(const OperatorPlot& plot, int size) {
   const double text = std::clamp(size / 30.0, 7.0, 24.0);
-  const double left = 5 * text, right = 1.5 * text, top = 3.5 * text, bottom = 5 * text;
+  const double heading = plot.heading.empty() ? 0 : 2 * text;
+  const double left = 5 * text, right = 1.5 * text, top = 3.5 * text + heading, bottom = 5 * text;
   const auto panels = static_cast<int>(plot.panels.size());
   const auto pitch = static_cast<int>(left + size + right);
   Canvas canvas(panels * pitch, static_cast<int>(top + size + bottom));
+  // In smaller letters before it is shortened.
+  const double room = panels * pitch - 2 * text;
+  const double fits = 1.1 * text * room / std::max(1.0, text_width(plot.heading, 1.1 * text));
+  const double height = std::clamp(fits, std::max(0.75 * text, 6.0), 1.1 * text);
+  canvas.text(fitted(plot.heading, height, room), panels * pitch / 2.0, 2.5 * text, height, 0.5, kInk);
   std::vector<double> ticks;
   for (const double part : {0.0, 0.5, 1.0}) ticks.push_back(plot.low + part * (plot.high - plot.low));
   // Zero belongs among them.

@@ -1,11 +1,24 @@
 #include "points/line_reader.h"
 
+#include <absl/strings/ascii.h>
 #include <absl/strings/str_cat.h>
 
 #include <cerrno>
 #include <cstring>
 
 namespace isofield {
+
+std::string excerpt(absl::string_view text) {
+  constexpr std::size_t kMost = 80;
+  std::string result(text.substr(0, kMost));
+  // A terminal obeys control characters, and half a character of several bytes is none.
+  for (char& c : result) {
+    if (!absl::ascii_isprint(static_cast<unsigned char>(c))) {
+      c = absl::ascii_isspace(static_cast<unsigned char>(c)) ? ' ' : '?';
+    }
+  }
+  return text.size() > kMost ? result.replace(kMost - 3, 3, "...") : result;
+}
 
 absl::StatusOr<std::unique_ptr<LineReader>> LineReader::open(const std::string& path) {
   InputFile file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
@@ -54,14 +67,7 @@ std::string LineReader::place() const {
 }
 
 absl::Status LineReader::refuse(absl::string_view text, const std::string& expected) const {
-  constexpr std::size_t kMost = 60;
-  std::string excerpt(text.substr(0, kMost));
-  // A terminal obeys control characters.
-  for (char& c : excerpt) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return absl::InvalidArgumentError(
-      absl::StrCat(place(), ": \"", excerpt, text.size() > kMost ? "..." : "", "\": ", expected));
+  return absl::InvalidArgumentError(absl::StrCat(place(), ": \"", excerpt(text), "\": ", expected));
 }
 
 }  // namespace isofield

@@ -11,6 +11,9 @@
 
 namespace isofield {
 
+// The beginning of a text that others wrote, for errors: at most 80 characters, all printable ASCII.
+std::string excerpt(absl::string_view text);
+
 // The lines of a text, read by blocks. Single-threaded.
 class LineReader {
  public:
@@ -22,7 +25,7 @@ class LineReader {
 
   // The file's name and the number of the line last returned: "points.csv:12".
   std::string place() const;
-  // INVALID_ARGUMENT at that place, with the beginning of `text`, a part of the line, made printable.
+  // INVALID_ARGUMENT at that place, with an excerpt of `text`, a part of the line.
   absl::Status refuse(absl::string_view text, const std::string& expected) const;
 
  private:
