@@ -34,7 +34,7 @@ Field operand(float f, uint slot) {
 
 // The blend at tan(theta) or through the opening; slot 2 of the direction is the derivative by theta or alpha.
 Field steered(Field a, Field b, uint op, float by) {
-  vec4 operation = operations[record];
+  vec4 operation = operation_at(record);
   vec2 t = vec2(tan(by), 0.0);
   t.y = 1.0 + t.x * t.x;
   if (steering == STEERING_ALPHA) {
@@ -101,7 +101,7 @@ void main() {
   uint row = gl_GlobalInvocationID.x;
   if (row >= count) return;
   if (is_opening != 0u) {
-    vec3 t = opening_tangent(floatBitsToUint(operations[record].x), arguments[row]);
+    vec3 t = opening_tangent(floatBitsToUint(operation_at(record).x), arguments[row]);
     results[2u * row] = arctangent(t.x);
     results[2u * row + 1u] = t.y / (1.0 + t.x * t.x);
     return;

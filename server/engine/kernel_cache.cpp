@@ -1,5 +1,7 @@
 #include "engine/kernel_cache.h"
 
+#include "gpu/commands.h"
+
 namespace isofield::engine {
 namespace {
 
@@ -21,19 +23,28 @@ std::uint32_t round_depth(std::uint32_t depth) {
   return blobtree::kMaxStackDepth;
 }
 
+// Parameters that fit into a uniform buffer.
+std::uint32_t fitting_parameters(const blobtree::Tape& tape) {
+  constexpr std::size_t kMost = gpu::kUniformBytes / 16;
+  return (tape.leaf_records <= kMost ? 1u : 0u) | (tape.record_owners.size() <= kMost ? 2u : 0u);
+}
+
 }  // namespace
 
 KernelKind KernelKind::of(const blobtree::Tape& tape) {
   KernelKind kind{tape.operand_set, tape.operator_set | bit(Operator::kPush), round_depth(tape.stack_depth)};
   kind.arity = round_depth(tape.arity);
   kind.volume_set = (1u << tape.volumes.size()) - 1;
+  kind.uniform_set = fitting_parameters(tape);
   // Pruning may turn an exchanged difference with nothing to take away into a clamp.
   if (kind.operator_set & bit(Operator::kSubtractFrom)) kind.operator_set |= bit(Operator::kSubtract);
   return kind;
 }
 
 KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
-  return {tape.operand_set & ~(bit(Operand::kPop) | bit(Operand::kZero)), bit(Operator::kPush), 0, 1};
+  KernelKind kind{tape.operand_set & ~(bit(Operand::kPop) | bit(Operand::kZero)), bit(Operator::kPush), 0, 1};
+  kind.uniform_set = fitting_parameters(tape);
+  return kind;
 }
 
 absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
@@ -43,7 +54,8 @@ absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shad
                 kind.stack_depth,
                 kind.tape_length,
                 kind.arity,
-                kind.volume_set};
+                kind.volume_set,
+                kind.uniform_set};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
   bool compiles = false;
@@ -57,8 +69,9 @@ absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shad
     kernel = it->second;
   }
   if (compiles) {
-    const std::array<std::uint32_t, 6> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
-                                                 kind.tape_length, kind.arity,        kind.volume_set};
+    const std::array<std::uint32_t, 7> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
+                                                 kind.tape_length, kind.arity,        kind.volume_set,
+                                                 kind.uniform_set};
     auto pipeline = gpu::Pipeline::create(device_, shader, constants);
     if (!pipeline.ok()) {
       // A later request may find the memory that was missing.

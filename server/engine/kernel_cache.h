@@ -23,6 +23,7 @@ struct KernelKind {
   std::uint32_t tape_length = 0;  // 0: any
   std::uint32_t arity = 0;        // most operands of an n-ary operator
   std::uint32_t volume_set = 0;   // slots of volumes, by bits (shaders/lib/volume.glsl)
+  std::uint32_t uniform_set = 0;  // parameters that are read from uniform buffers (shaders/lib/parameters.glsl)
 
   // For every tape pruned from this one.
   static KernelKind of(const blobtree::Tape& tape);
@@ -39,7 +40,7 @@ class KernelCache {
 
  private:
   using Compiled = absl::StatusOr<std::shared_ptr<const gpu::Pipeline>>;
-  using Key = std::array<std::uintptr_t, 7>;
+  using Key = std::array<std::uintptr_t, 8>;
 
   gpu::Device& device_;
   std::mutex mutex_;

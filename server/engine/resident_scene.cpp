@@ -51,7 +51,12 @@ std::uint64_t ResidentScene::device_bytes() const {
 }
 
 gpu::Commands::Bindings ResidentScene::bindings(const gpu::Buffer& code, const gpu::Commands::Bindings& own) const {
-  gpu::Commands::Bindings all{{0, leaves_.get()}, {1, &operations_}, {2, &tables_}, {3, &code}};
+  gpu::Commands::Bindings all{{0, leaves_.get()},
+                              {1, &operations_},
+                              {2, &tables_},
+                              {3, &code},
+                              {gpu::kFirstUniformBinding, leaves_.get()},
+                              {gpu::kFirstUniformBinding + 1, &operations_}};
   for (std::uint32_t slot = 0; slot < volumes_.size(); ++slot) {
     all.push_back({kFirstVolumeBinding + slot, &volumes_[slot]->buffer()});
   }

@@ -56,10 +56,11 @@ absl::StatusOr<Buffer> Buffer::create(Device& device, std::size_t bytes, Use use
   }
   try {
     auto impl = std::make_unique<Impl>(d, size);
-    impl->buffer.emplace(*d.device, vk::BufferCreateInfo({}, size,
-                                                         vk::BufferUsageFlagBits::eStorageBuffer |
-                                                             vk::BufferUsageFlagBits::eTransferSrc |
-                                                             vk::BufferUsageFlagBits::eTransferDst));
+    impl->buffer.emplace(
+        *d.device,
+        vk::BufferCreateInfo({}, size,
+                             vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformBuffer |
+                                 vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst));
     const vk::MemoryRequirements needs = impl->buffer->getMemoryRequirements();
     const auto type = memory_type(d.memory, needs.memoryTypeBits, use);
     if (!type) return absl::InternalError("Vulkan offers no memory for a storage buffer");

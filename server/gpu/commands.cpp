@@ -1,5 +1,8 @@
 #include "gpu/commands.h"
 
+#include <algorithm>
+#include <array>
+
 #include "gpu/buffer_impl.h"
 #include "gpu/device_impl.h"
 #include "gpu/pipeline_impl.h"
@@ -22,8 +25,10 @@ struct Commands::Impl {
 
   vk::DescriptorSet next_set() {
     if (sets_left == 0) {
-      const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, kSetsPerPool * kBindings);
-      set_pools.emplace_back(*device.device, vk::DescriptorPoolCreateInfo({}, kSetsPerPool, size));
+      const std::array sizes{
+          vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSetsPerPool * kBindings),
+          vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, kSetsPerPool * kUniformBindings)};
+      set_pools.emplace_back(*device.device, vk::DescriptorPoolCreateInfo({}, kSetsPerPool, sizes));
       sets_left = kSetsPerPool;
     }
     --sets_left;
@@ -63,10 +68,14 @@ absl::Status Commands::dispatch(const Pipeline& pipeline, const Bindings& bindin
     const vk::DescriptorSet set = impl_->next_set();
     std::vector<vk::DescriptorBufferInfo> infos;
     std::vector<vk::WriteDescriptorSet> writes;
-    infos.reserve(kBindings);
+    infos.reserve(kBindings + kUniformBindings);
     const auto bind = [&](std::uint32_t binding, const Buffer& buffer) {
-      infos.emplace_back(**buffer.impl().buffer, 0, VK_WHOLE_SIZE);
-      writes.emplace_back(set, binding, 0, 1, vk::DescriptorType::eStorageBuffer, nullptr, &infos.back());
+      const bool is_uniform = binding >= kBindings;
+      infos.emplace_back(**buffer.impl().buffer, 0,
+                         is_uniform ? std::min<vk::DeviceSize>(buffer.size(), kUniformBytes) : VK_WHOLE_SIZE);
+      writes.emplace_back(set, binding, 0, 1,
+                          is_uniform ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer, nullptr,
+                          &infos.back());
     };
     std::uint32_t named = 0;
     for (const auto& [binding, buffer] : bindings) {
@@ -74,7 +83,7 @@ absl::Status Commands::dispatch(const Pipeline& pipeline, const Bindings& bindin
       named |= 1u << binding;
     }
     // Vulkan wants a buffer wherever the module, as yet unspecialised, could read one.
-    for (std::uint32_t binding = 0; binding < kBindings && !bindings.empty(); ++binding) {
+    for (std::uint32_t binding = 0; binding < kBindings + kUniformBindings && !bindings.empty(); ++binding) {
       if (!(named >> binding & 1u)) bind(binding, *bindings.front().second);
     }
     impl_->device.device->updateDescriptorSets(writes, {});

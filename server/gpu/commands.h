@@ -49,6 +49,11 @@ class Commands {
   std::unique_ptr<Impl> impl_;
 };
 
+// Bindings from here on are uniform buffers, of which kernels see the first kUniformBytes: more than Vulkan's least
+// limit, so device_selection asks for it.
+inline constexpr std::uint32_t kFirstUniformBinding = 16;
+inline constexpr std::size_t kUniformBytes = 65'536;
+
 // Groups a dispatch may have.
 inline constexpr std::uint32_t kMaxGroups = 65'535;
 

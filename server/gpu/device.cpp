@@ -99,6 +99,7 @@ DeviceCandidate candidate(const vk::raii::PhysicalDevice& device) {
   c.api_minor = VK_API_VERSION_MINOR(properties.apiVersion);
   c.has_compute_queue = compute_family(device).has_value();
   c.storage_buffers_per_stage = properties.limits.maxPerStageDescriptorStorageBuffers;
+  c.uniform_bytes = properties.limits.maxUniformBufferRange;
   c.workgroup_invocations = properties.limits.maxComputeWorkGroupInvocations;
   return c;
 }
@@ -136,8 +137,9 @@ void create_device(Device::Impl& impl) {
   impl.memory = impl.physical->getMemoryProperties();
 
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
-  for (std::uint32_t i = 0; i < kBindings; ++i) {
-    bindings.emplace_back(i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
+  for (std::uint32_t i = 0; i < kBindings + kUniformBindings; ++i) {
+    const auto type = i < kBindings ? vk::DescriptorType::eStorageBuffer : vk::DescriptorType::eUniformBuffer;
+    bindings.emplace_back(i, type, 1, vk::ShaderStageFlagBits::eCompute);
   }
   impl.set_layout.emplace(*impl.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
   const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, kPushBytes);

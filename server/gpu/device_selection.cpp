@@ -8,6 +8,7 @@ namespace isofield::gpu {
 namespace {
 
 constexpr std::uint32_t kStorageBuffers = 16;
+constexpr std::uint32_t kUniformBytes = 65'536;
 constexpr std::uint32_t kInvocations = 128;
 
 // Empty: fit.
@@ -18,6 +19,9 @@ std::string unfit_because(const DeviceCandidate& c, const std::string& wanted) {
   if (!c.has_compute_queue) return "has no compute queue";
   if (c.storage_buffers_per_stage < kStorageBuffers) {
     return absl::StrCat("binds ", c.storage_buffers_per_stage, " storage buffers, ", kStorageBuffers, " are needed");
+  }
+  if (c.uniform_bytes < kUniformBytes) {
+    return absl::StrCat("binds ", c.uniform_bytes, " bytes of a uniform buffer, ", kUniformBytes, " are needed");
   }
   if (c.workgroup_invocations < kInvocations) {
     return absl::StrCat("runs ", c.workgroup_invocations, " invocations a workgroup, ", kInvocations, " are needed");

@@ -17,6 +17,7 @@ struct DeviceCandidate {
   std::uint32_t api_major = 1, api_minor = 0;
   bool has_compute_queue = false;
   std::uint32_t storage_buffers_per_stage = 0;
+  std::uint32_t uniform_bytes = 0;
   std::uint32_t workgroup_invocations = 0;
 };
 

@@ -57,20 +57,20 @@ Field evaluate(vec3 point, uint begin, uint count) {
         b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
       }
       if (is_operator(op, OPERATOR_GRADIENT)) {
-        r = blend_by_gradient(a, b, operations[i.z], SMOOTH_SILHOUETTE, false);
+        r = blend_by_gradient(a, b, operation_at(i.z), SMOOTH_SILHOUETTE, false);
       } else if (is_operator(op, OPERATOR_GRADIENT_TABLE)) {
-        uint silhouette = silhouette_half(floatBitsToUint(operations[i.z].y), a.f, b.f);
-        r = blend_by_gradient(a, b, operations[i.z], silhouette, false);
+        uint silhouette = silhouette_half(floatBitsToUint(operation_at(i.z).y), a.f, b.f);
+        r = blend_by_gradient(a, b, operation_at(i.z), silhouette, false);
       } else if (is_operator(op, OPERATOR_GRADIENT_VOLUME)) {
-        r = blend_by_gradient(a, b, operations[i.z], floatBitsToUint(operations[i.z].y), true);
+        r = blend_by_gradient(a, b, operation_at(i.z), floatBitsToUint(operation_at(i.z).y), true);
       } else if (op != OPERATOR_PUSH) {
         Angle angle = no_angle();
         if (may_follow_angle()) angle = angle_between(a, b);
         r = unite(a, b, op, i.z, angle);
       }
       if (has_modes()) r = formed(r, first, second, mode);
-      if (is_operator(op, OPERATOR_LINEAR)) r = linear(acc, operations[i.z].x, operations[i.z].y);
-      if (is_operator(op, OPERATOR_SOFTEN)) r = softened(acc, operations[i.z].x);
+      if (is_operator(op, OPERATOR_LINEAR)) r = linear(acc, operation_at(i.z).x, operation_at(i.z).y);
+      if (is_operator(op, OPERATOR_SOFTEN)) r = softened(acc, operation_at(i.z).x);
       bool is_btk = is_operator(op, OPERATOR_BTK);
       if (is_btk || is_operator(op, OPERATOR_SUPERELLIPTIC)) {
         // The last operand is the accumulator, those before wait below it in the order of the registers.

@@ -149,10 +149,10 @@ struct Placement {
 };
 
 Placement place(vec3 p, uint record) {
-  vec4 anchor = leaves[record];
-  vec4 r0 = leaves[record + 1u];
-  vec4 r1 = leaves[record + 2u];
-  vec4 r2 = leaves[record + 3u];
+  vec4 anchor = leaf_at(record);
+  vec4 r0 = leaf_at(record + 1u);
+  vec4 r1 = leaf_at(record + 2u);
+  vec4 r2 = leaf_at(record + 3u);
   vec3 v = p - anchor.xyz;
   return Placement(vec3(dot(r0.xyz, v), dot(r1.xyz, v), dot(r2.xyz, v)), mat3(r0.xyz, r1.xyz, r2.xyz),
                    vec3(r0.w, r1.w, r2.w), anchor.w);
@@ -169,18 +169,18 @@ Field placed_field(Placement at, Distance s) {
 Field leaf_field(vec3 p, uint operand, uint record) {
   Field v = zero_field();
   if (is_operand(operand, OPERAND_SPHERE)) {
-    vec4 centre = leaves[record];
-    v = soften(sphere_distance(p - centre.xyz, leaves[record + 1u].x), centre.w);
+    vec4 centre = leaf_at(record);
+    v = soften(sphere_distance(p - centre.xyz, leaf_at(record + 1u).x), centre.w);
   }
   if (is_operand(operand, OPERAND_SEGMENT)) {
-    vec4 a = leaves[record];
-    vec4 axis = leaves[record + 1u];
-    vec4 cone = leaves[record + 2u];
+    vec4 a = leaf_at(record);
+    vec4 axis = leaf_at(record + 1u);
+    vec4 cone = leaf_at(record + 2u);
     v = soften(segment_distance(p - a.xyz, axis.xyz, axis.w, cone.x, cone.y, cone.z), a.w);
   }
   if (is_operand(operand, OPERAND_BOX)) {
     Placement at = place(p, record);
-    v = placed_field(at, box_distance(at.q, at.size, leaves[record + 4u].x));
+    v = placed_field(at, box_distance(at.q, at.size, leaf_at(record + 4u).x));
   }
   if (is_operand(operand, OPERAND_CYLINDER)) {
     Placement at = place(p, record);

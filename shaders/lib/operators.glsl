@@ -151,7 +151,7 @@ Angle no_angle() { return Angle(dual(0.0), dual(1.0)); }
 
 // `angle` counts where the operator follows it.
 Field blend_bt2(Field a, Field b, uint record, Angle angle) {
-  vec4 head = operations[record], w1 = operations[record + 1u], w2 = operations[record + 2u];
+  vec4 head = operation_at(record), w1 = operation_at(record + 1u), w2 = operation_at(record + 2u);
   Reach2 reach = Reach2(dual(head.x), dual(head.y), dual(w1.z), dual(w2.z));
   vec2 inverse_weights = vec2(w1.x, w2.x);
   if (may_follow_angle() && head.w >= 0.0) {
@@ -202,11 +202,11 @@ Field join_operands(Field x[MAX_OPERANDS], Dual g, Dual partials[MAX_OPERANDS]) 
 
 // [H] eq. 5.
 Field blend_btk(Field x[MAX_OPERANDS], uint mask, uint record, Angle angle) {
-  vec4 head = operations[record];
+  vec4 head = operation_at(record);
   Term terms[MAX_OPERANDS];
   for (uint j = 0u; j < ARITY; ++j) {
     bool is_there;
-    vec4 t = operations[take_operand(mask, record, is_there)];
+    vec4 t = operation_at(take_operand(mask, record, is_there));
     terms[j] = Term(dual_of(x[j]), dual(t.x), dual(is_there ? t.w : 0.0), t.z);
   }
   if (may_follow_angle() && head.y >= 0.0) {
@@ -223,13 +223,13 @@ Field blend_btk(Field x[MAX_OPERANDS], uint mask, uint record, Angle angle) {
 
 // [G] eq. 4.
 Field blend_superelliptic(Field x[MAX_OPERANDS], uint mask, uint record, Angle angle) {
-  vec4 head = operations[record];
+  vec4 head = operation_at(record);
   bool by_angle = may_follow_angle() && head.y >= 0.0;
   Dual g = dual(1.0);
   Dual partials[MAX_OPERANDS];
   for (uint j = 0u; j < ARITY; ++j) {
     bool is_there;
-    float range = operations[take_operand(mask, record, is_there)].w;
+    float range = operation_at(take_operand(mask, record, is_there)).w;
     Dual r = dual(range);
     if (by_angle) r = angular_range(range, angle.cosine, head.y);
     Bracket b = superelliptic_bracket(dual_of(x[j]), r, head.x);
@@ -341,21 +341,21 @@ Field unite(Field a, Field b, uint op, uint record, Angle angle) {
   if (is_operator(op, OPERATOR_MIN)) r = select_field(a, b, b.f < a.f);
   if (is_operator(op, OPERATOR_SUBTRACT)) r = subtract(a, b);
   if (is_operator(op, OPERATOR_SUBTRACT_FROM)) r = subtract(b, a);
-  if (is_operator(op, OPERATOR_RICCI)) r = ricci(a, b, operations[record].xy);
+  if (is_operator(op, OPERATOR_RICCI)) r = ricci(a, b, operation_at(record).xy);
   if (is_operator(op, OPERATOR_CLEAN)) r = join_positive(a, b, clean_union(dual_of(a), dual_of(b)));
   if (is_operator(op, OPERATOR_BARTHE)) {
-    vec4 o = operations[record];
+    vec4 o = operation_at(record);
     r = join_positive(a, b, barthe_blend(dual_of(a), dual_of(b), o.x, o.y));
   }
   if (is_operator(op, OPERATOR_BERNHARDT)) {
-    vec4 o = operations[record];
+    vec4 o = operation_at(record);
     r = join_positive(a, b, bernhardt_blend(dual_of(a), dual_of(b), o.x, o.y, o.z));
   }
   if (is_operator(op, OPERATOR_PASKO)) {
-    r = join_binary(a, b, pasko_blend(dual_of(a), dual_of(b), operations[record].xyz));
+    r = join_binary(a, b, pasko_blend(dual_of(a), dual_of(b), operation_at(record).xyz));
   }
   if (is_operator(op, OPERATOR_FUNCTIONAL)) {
-    r = join_binary(a, b, functional_blend(dual_of(a), dual_of(b), operations[record].xyz));
+    r = join_binary(a, b, functional_blend(dual_of(a), dual_of(b), operation_at(record).xyz));
   }
   if (is_operator(op, OPERATOR_BT2)) r = blend_bt2(a, b, record, angle);
   return r;

@@ -9,7 +9,7 @@ namespace {
 using Type = DeviceCandidate::Type;
 
 DeviceCandidate candidate(const char* name, Type type) {
-  return {name, type, 1, 3, true, 16, 256};
+  return {name, type, 1, 3, true, 16, 65'536, 256};
 }
 
 TEST(DeviceSelection, PrefersDiscreteDevices) {
@@ -33,10 +33,13 @@ TEST(DeviceSelection, SaysWhyEachWasRefused) {
   old.api_minor = 0;
   small.storage_buffers_per_stage = 4;
   display.has_compute_queue = false;
-  const absl::Status status = select_device({old, small, display}, "").status();
+  DeviceCandidate narrow = candidate("Narrow", Type::kIntegrated);
+  narrow.uniform_bytes = 16'384;
+  const absl::Status status = select_device({old, small, display, narrow}, "").status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
   EXPECT_NE(status.message().find("'Old' has Vulkan 1.0"), absl::string_view::npos) << status;
   EXPECT_NE(status.message().find("'Small' binds 4"), absl::string_view::npos) << status;
+  EXPECT_NE(status.message().find("'Narrow' binds 16384 bytes of a uniform"), absl::string_view::npos) << status;
   EXPECT_NE(status.message().find("'Display' has no compute queue"), absl::string_view::npos) << status;
   EXPECT_NE(select_device({}, "").status().message().find("mesa-vulkan-drivers"), absl::string_view::npos);
 }
