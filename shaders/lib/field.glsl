@@ -5,6 +5,9 @@
 
 #include "opcodes.glsl"
 
+// Of the law of positive primitives: w(R0) = 0.5.
+const float R0 = 0.45420201894740647;
+
 struct Field {
   float f;
   // Steering vector: the gradient of a primitive, combined by the operators' partials with respect to their fields.

@@ -6,8 +6,6 @@
 #include "field.glsl"
 #include "parameters.glsl"
 
-const float R0 = 0.45420201894740647;
-
 // A distance with its gradient and Hessian, in whatever frame.
 struct Distance {
   float d;

@@ -8,9 +8,6 @@
 #include "signed_blends.glsl"
 #include "volume.glsl"
 
-// The falloff of primitives, leaves.glsl.
-const float R0_SIGNED = 0.45420201894740647;
-
 Field sum(Field a, Field b) {
   a.f += b.f;
   a.d += b.d;
@@ -84,7 +81,7 @@ Field linear(Field a, float factor, float offset) {
 
 // w(clamp(R0 + slope f, 0, 1)) of a signed field.
 Field softened(Field a, float slope) {
-  float r = clamp(R0_SIGNED + slope * a.f, 0.0, 1.0);
+  float r = clamp(R0 + slope * a.f, 0.0, 1.0);
   float v = 1.0 - r * r;
   Field b = zero_field();
   b.f = v * v * v;
