@@ -3,30 +3,12 @@
 #include <absl/container/flat_hash_map.h>
 
 #include <memory>
-#include <set>
 
 #include "blobtree/node_reader.h"
 #include "blobtree/operation.h"
+#include "blobtree/profile_count.h"
 
 namespace isofield::blobtree {
-namespace {
-
-// Tables that the tape takes on the device, as scene_reader counts them.
-std::size_t profiles(const Tape& tape) {
-  std::set<operators::Opening> openings;
-  std::set<operators::Silhouette> silhouettes;
-  std::set<operators::SampledCurve> curves;
-  for (const Operation& o : tape.operations) {
-    if (!o.what) continue;
-    if (o.what->is_steered()) openings.insert(o.what->opening);
-    if (o.what->kind == operators::Kind::kGradient) silhouettes.insert(o.what->silhouette);
-    if (o.what->kind == operators::Kind::kFunctional) curves.insert(o.what->curve);
-  }
-  return openings.size() + silhouettes.size() + curves.size();
-}
-
-}  // namespace
-
 absl::StatusOr<std::optional<Tape>> edit_blends(const Tape& tape, const v1::Scene& edited,
                                                 const std::vector<std::uint32_t>& nodes, const SceneLimits& limits) {
   absl::flat_hash_map<std::uint32_t, std::shared_ptr<const operators::Operator>> changed;
@@ -49,7 +31,11 @@ absl::StatusOr<std::optional<Tape>> edit_blends(const Tape& tape, const v1::Scen
     o.silhouette_bound = fresh.silhouette_bound;
   }
   // At the limit the whole scene is to be judged.
-  if (profiles(result) > limits.max_profiles) return std::nullopt;
+  ProfileCount profiles;
+  for (const Operation& o : result.operations) {
+    if (o.what) profiles.add(*o.what);
+  }
+  if (profiles.size() > limits.max_profiles) return std::nullopt;
   return result;
 }
 

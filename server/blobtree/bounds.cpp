@@ -23,8 +23,13 @@ void intersect(Box& a, const Box& b) {
   if (a.empty()) a = {};
 }
 
+// A box that holds everything that a scene may hold.
+Box everywhere() {
+  return {{-kMaxCoordinate, -kMaxCoordinate, -kMaxCoordinate}, {kMaxCoordinate, kMaxCoordinate, kMaxCoordinate}};
+}
+
 void join_positive(Box& box, const operators::Operator& op, std::size_t operand, const Box& next) {
-  const bool is_difference = op.kind == Kind::kDifference || op.form == Form::kDifference;
+  const bool is_difference = op.applied_form() == Form::kDifference;
   const bool is_intersection = op.kind == Kind::kMin || op.form == Form::kIntersection;
   if (operand == 0) {
     box = next;
@@ -54,13 +59,13 @@ Bounds reached(const operators::Operator& op, std::size_t operand, const Bounds&
       return {operand == 0 ? Box{} : b.within(reach), b.growth, b.limit - reach};
     }
     case Kind::kSuperelliptic: {
-      const double reach = op.term(operand).range * (op.by_angle ? 2 + op.omega : 1);
+      const double reach = op.term(operand).range * op.most_reach();
       return {b.within(reach), 0, 1};
     }
     case Kind::kBt2:
     case Kind::kBtk: {
       const operators::Term& t = op.term(operand);
-      const double reach = t.range * (op.by_angle ? 2 + op.omega : 1), weight = most_weight(op, operand);
+      const double reach = t.range * op.most_reach(), weight = most_weight(op, operand);
       return {b.within(reach), b.growth * weight, (b.limit - reach) / weight};
     }
     default:
@@ -74,7 +79,7 @@ Bounds kept(const operators::Operator& op, std::size_t operand, const Bounds& b)
     case Kind::kPasko:
       return {b.within(std::abs(op.a0)), b.growth, b.limit - std::abs(op.a0)};
     case Kind::kSuperelliptic: {
-      const double range = op.term(operand).range * (op.by_angle ? 2 + op.omega : 1);
+      const double range = op.term(operand).range * op.most_reach();
       return {b.box, b.growth * range, b.limit / range};
     }
     case Kind::kBt2:
@@ -88,9 +93,9 @@ Bounds kept(const operators::Operator& op, std::size_t operand, const Bounds& b)
 }
 
 void join_signed(Bounds& so_far, const operators::Operator& op, std::size_t operand, const Bounds& next) {
-  const bool is_difference = op.kind == Kind::kDifference || op.form == Form::kDifference;
+  const bool is_difference = op.applied_form() == Form::kDifference;
   const bool is_intersection = op.kind == Kind::kMax || op.form == Form::kIntersection;
-  const bool is_n_ary = op.kind == Kind::kBtk || op.kind == Kind::kSuperelliptic;
+  const bool is_n_ary = op.is_n_ary();
   // A fold applies the operator to what it has so far and to the next.
   if (operand == 0) {
     so_far = next;
@@ -114,10 +119,6 @@ void join_signed(Bounds& so_far, const operators::Operator& op, std::size_t oper
 }
 
 }  // namespace
-
-Box everywhere() {
-  return {{-kMaxCoordinate, -kMaxCoordinate, -kMaxCoordinate}, {kMaxCoordinate, kMaxCoordinate, kMaxCoordinate}};
-}
 
 Box Bounds::within(double r) const {
   if (r >= limit) return everywhere();

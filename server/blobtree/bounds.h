@@ -27,7 +27,4 @@ void join_bounds(Bounds& so_far, const operators::Operator& op, operators::Law l
 Bounds softened(const Bounds& signed_bounds, double range);
 Bounds hardened(const Bounds& positive_bounds);
 
-// A box that holds everything that a scene may hold.
-Box everywhere();
-
 }  // namespace isofield::blobtree

@@ -16,7 +16,7 @@ using operators::Kind;
 using operators::Law;
 
 bool is_n_ary(const Node& node) {
-  return node.op && blobtree::is_n_ary(*node.op);
+  return node.op && node.op->is_n_ary();
 }
 bool is_conversion(const Node& node) {
   return node.kind == NodeKind::kSoften || node.kind == NodeKind::kHarden;
@@ -125,7 +125,7 @@ class Compiler {
       if (exchanged) join.op = Operator::kSubtractFrom;
       return join;
     }
-    join.mode.form = node.op->kind == Kind::kDifference ? Form::kDifference : node.op->form;
+    join.mode.form = node.op->applied_form();
     join.mode.is_signed = node.law == Law::kSigned;
     join.mode.is_exchanged = exchanged && (is_ordered(*node.op) || join.mode.form == Form::kDifference);
     return join;

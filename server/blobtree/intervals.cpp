@@ -23,11 +23,6 @@ Interval padded(double lo, double hi) {
   return {lo - room, hi + room};
 }
 
-// Ranges that follow an angle lie between omega and 2 + omega times the range that is stated.
-double most_reach(const Operation& o) {
-  return o.what->by_angle ? 2 + o.what->omega : 1;
-}
-
 // Weights that follow the gradients only grow, to so many times the other, so that fields only shrink towards 0.
 Interval with_grown_weights(const Operation& o, const Interval& i) {
   if (!o.what->by_angle) return i;
@@ -67,7 +62,7 @@ Interval bt2(const Operation& o, const Interval& a, const Interval& b) {
                                   op.conic * reach * reach)
         .g;
   };
-  const double reach = most_reach(o);
+  const double reach = o.what->most_reach();
   // Wider ranges, and a conic that is wider with them, add material.
   const double lo = reach == 1 ? at(a.lo, b.lo, 1)
                                : std::min(a.lo / t1.weight, b.lo / t2.weight) -
@@ -152,12 +147,12 @@ Interval n_ary_interval(Operator op, const Operation& o, const Mode& mode, std::
     const operators::Term& t = o.what->term(i);
     if (op == Operator::kSuperelliptic) {
       low -= operators::superelliptic_bracket(
-                 v.lo, v.lo > 0 ? t.range * most_reach(o) : t.range * (o.what->by_angle ? o.what->omega : 1),
+                 v.lo, v.lo > 0 ? t.range * o.what->most_reach() : t.range * (o.what->by_angle ? o.what->omega : 1),
                  o.what->exponent)
                  .value;
       high -= o.what->by_angle && v.hi > 0
                   ? 0
-                  : operators::superelliptic_bracket(v.hi, t.range * most_reach(o), o.what->exponent).value;
+                  : operators::superelliptic_bracket(v.hi, t.range * o.what->most_reach(), o.what->exponent).value;
     }
     lows.push_back(v.lo);
     highs.push_back(v.hi);
@@ -171,7 +166,7 @@ Interval n_ary_interval(Operator op, const Operation& o, const Mode& mode, std::
       double least = lows[0] / reach[0].weight, widest = 0;
       for (std::size_t i = 0; i < lows.size(); ++i) {
         least = std::min(least, lows[i] / reach[i].weight);
-        widest = std::max(widest, reach[i].range * most_reach(o) / reach[i].weight);
+        widest = std::max(widest, reach[i].range * o.what->most_reach() / reach[i].weight);
         r.hi = i == 0 ? highs[i] / reach[i].weight : std::min(r.hi, highs[i] / reach[i].weight);
       }
       r.lo = least - widest;

@@ -77,7 +77,7 @@ Operation operation_of(std::shared_ptr<const operators::Operator> op, Law law, s
   o.op = opcode_of(*op, law);
   if (op->kind == Kind::kGradient) o.silhouette_bound = bound_of(op->silhouette, bounds);
   if (op->kind == Kind::kSampled) o.silhouette_bound = operators::sampled_bound(*op->samples);
-  if (is_n_ary(*op)) o.operands = operands;
+  if (op->is_n_ary()) o.operands = operands;
   o.what = std::move(op);
   return o;
 }
@@ -140,14 +140,10 @@ bool is_ordered(const operators::Operator& op) {
   return op.form == Form::kDifference;
 }
 
-bool is_n_ary(const operators::Operator& op) {
-  return op.kind == Kind::kBtk || op.kind == Kind::kSuperelliptic;
-}
-
 Tape operator_tape(std::shared_ptr<const operators::Operator> op, Law law, std::uint32_t operands) {
   Tape tape;
   SilhouetteBounds bounds;
-  Mode mode{op->kind == Kind::kDifference ? Form::kDifference : op->form, law == Law::kSigned, false};
+  Mode mode{op->applied_form(), law == Law::kSigned, false};
   Operation o = operation_of(std::move(op), law, operands, bounds);
   if (o.op == Operator::kSubtract) mode = {};
   const bool n_ary = o.operands > 0;

@@ -24,8 +24,6 @@ void add_sets(Tape& tape, const Operation& operation, const Mode& mode);
 // Whether it makes a difference which of two operands is the first, in the union.
 bool is_ordered(const operators::Operator& op);
 
-bool is_n_ary(const operators::Operator& op);
-
 // A tape of one instruction that applies an operator to operands which the kernel supplies.
 Tape operator_tape(std::shared_ptr<const operators::Operator> op, operators::Law law, std::uint32_t operands);
 

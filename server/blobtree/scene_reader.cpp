@@ -12,6 +12,7 @@
 
 #include "blobtree/node_reader.h"
 #include "blobtree/operator_reader.h"
+#include "blobtree/profile_count.h"
 
 namespace isofield::blobtree {
 namespace {
@@ -178,18 +179,14 @@ absl::Status check_instances(const Scene& scene, const SceneLimits& limits) {
 
 // Each opening, silhouette and curve is a table on the device, each volume a buffer of its own.
 absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
-  std::set<operators::Opening> openings;
-  std::set<operators::Silhouette> silhouettes;
-  std::set<operators::SampledCurve> curves;
+  ProfileCount profiles;
   std::set<operators::VolumeKey> volumes;
   for (const Node& node : scene.nodes) {
     if (!node.op) continue;
     const operators::Operator& op = *node.op;
-    if (op.is_steered()) openings.insert(op.opening);
-    if (op.kind == operators::Kind::kGradient) silhouettes.insert(op.silhouette);
-    if (op.kind == operators::Kind::kFunctional) curves.insert(op.curve);
+    profiles.add(op);
     if (op.has_volume()) volumes.insert(operators::volume_key(op));
-    if (openings.size() + silhouettes.size() + curves.size() > limits.max_profiles) {
+    if (profiles.size() > limits.max_profiles) {
       return absl::InvalidArgumentError(absl::StrCat(node.path, ".opening: more than ", limits.max_profiles,
                                                      " different openings and silhouettes in one scene: expected at "
                                                      "most so many; nodes may share them"));

@@ -102,6 +102,12 @@ struct Operator {
   const Term& term(std::size_t operand) const { return terms[terms.size() == 1 ? 0 : operand]; }
   // By the angle between two gradients, through an opening function.
   bool is_steered() const { return kind == Kind::kGradient || kind == Kind::kSampled; }
+  // Of all its operands at once, rather than folded over them.
+  bool is_n_ary() const { return kind == Kind::kSuperelliptic || kind == Kind::kBtk; }
+  // The form it is applied in: kDifference is one by itself.
+  Form applied_form() const { return kind == Kind::kDifference ? Form::kDifference : form; }
+  // Ranges that follow an angle lie between omega and so many times the range that is stated.
+  double most_reach() const { return by_angle ? 2 + omega : 1; }
   bool has_volume() const { return kind == Kind::kSampled || (kind == Kind::kGradient && volume != 0); }
 };
 

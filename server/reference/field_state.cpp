@@ -218,9 +218,8 @@ FieldState evaluate_primitive(const Primitive& primitive, const dvec3& p) {
 
 FieldState combine(const OperatorUse& use, const std::vector<FieldState>& operands) {
   const operators::Operator& op = *use.op;
-  Form form = op.form;
-  if (op.kind == Kind::kDifference) form = Form::kDifference;
-  if (op.kind == Kind::kSuperelliptic || op.kind == Kind::kBtk) {
+  const Form form = op.applied_form();
+  if (op.is_n_ary()) {
     std::vector<FieldState> x = operands;
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (form == Form::kIntersection || (form == Form::kDifference && i == 0)) x[i] = complement(use, x[i]);

@@ -77,9 +77,7 @@ grpc::Status OperatorService::DeleteOperator(grpc::ServerContext*, const v1::Del
 
 absl::Status OperatorService::evaluate_opening(const v1::EvaluateOperatorRequest& request,
                                                v1::EvaluateOperatorResponse& response) {
-  v1::Operator holder;
-  *holder.mutable_gradient()->mutable_opening() = request.opening();
-  ISOFIELD_ASSIGN_OR_RETURN(const auto op, blobtree::read_operator(holder));
+  ISOFIELD_ASSIGN_OR_RETURN(const operators::Opening opening, blobtree::read_opening(request.opening()));
   ISOFIELD_ASSIGN_OR_RETURN(
       const OperatorArguments alphas,
       OperatorArguments::read_alphas(request.columns(), request.arguments(), limits_.max_points_per_message));
@@ -87,7 +85,7 @@ absl::Status OperatorService::evaluate_opening(const v1::EvaluateOperatorRequest
   response.add_columns("dtheta_dalpha");
   const std::span<float> out = make_float_tensor({alphas.rows(), 2}, *response.mutable_results());
   if (out.empty()) return absl::OkStatus();
-  return engine_.operators().evaluate_opening(op->opening, alphas.numbers(), out);
+  return engine_.operators().evaluate_opening(opening, alphas.numbers(), out);
 }
 
 absl::Status OperatorService::evaluate(const v1::EvaluateOperatorRequest& request,
