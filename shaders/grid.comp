@@ -6,7 +6,7 @@
 #include "interpreter.glsl"
 #include "output.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 64) in;  // CELLS_PER_BRICK
 
 layout(push_constant) uniform Constants {
   vec4 origin;
@@ -19,11 +19,10 @@ layout(push_constant) uniform Constants {
 
 void main() {
   Brick b = brick(first_brick + gl_WorkGroupID.x);
-  for (uint n = gl_LocalInvocationID.x; n < CELLS_PER_BRICK; n += gl_WorkGroupSize.x) {
-    uvec3 i = b.at * BRICK_CELLS + uvec3(n % BRICK_CELLS, n / BRICK_CELLS % BRICK_CELLS, n / (BRICK_CELLS * BRICK_CELLS));
-    if (all(lessThan(i, counts)) && i.z >= first_layer && i.z - first_layer < layers) {
-      Field a = evaluate(lattice_point(origin.xyz, spacing.xyz, i), b.tape_begin, b.tape_count);
-      write_result(((i.z - first_layer) * counts.y + i.y) * counts.x + i.x, a);
-    }
+  uint n = gl_LocalInvocationID.x;
+  uvec3 i = b.at * BRICK_CELLS + uvec3(n % BRICK_CELLS, n / BRICK_CELLS % BRICK_CELLS, n / (BRICK_CELLS * BRICK_CELLS));
+  Field a = evaluate(lattice_point(origin.xyz, spacing.xyz, i), b.tape_begin, b.tape_count);
+  if (all(lessThan(i, counts)) && i.z >= first_layer && i.z - first_layer < layers) {
+    write_result(((i.z - first_layer) * counts.y + i.y) * counts.x + i.x, a);
   }
 }

@@ -16,7 +16,9 @@ void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  for (uint v = starts[b].x + gl_LocalInvocationID.x; v < end; v += gl_WorkGroupSize.x) {
+  // By subgroups, whole ones: surplus invocations repeat the last vertex.
+  for (uint from = starts[b].x + gl_SubgroupID * gl_SubgroupSize; from < end; from += gl_WorkGroupSize.x) {
+    uint v = min(from + gl_SubgroupInvocationID, end - 1u);
     vec3 p = vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
     // Scaled by the cell first: in large units the square of a gradient underflows.
     vec3 n = -inward() * origin.w * field_gradient(evaluate(p, at.tape_begin, at.tape_count));

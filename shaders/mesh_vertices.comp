@@ -1,6 +1,7 @@
 // Mesher, pass 5: puts every vertex on the surface, one workgroup a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
 
 #include "interpreter.glsl"
 #include "mesh_constants.glsl"
@@ -27,7 +28,9 @@ void main() {
   uint slot = jobs[2u * (first + gl_WorkGroupID.x) + 1u];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  for (uint v = starts[b].x + gl_LocalInvocationID.x; v < end; v += gl_WorkGroupSize.x) {
+  // By subgroups, whole ones: surplus invocations repeat the last vertex.
+  for (uint from = starts[b].x + gl_SubgroupID * gl_SubgroupSize; from < end; from += gl_WorkGroupSize.x) {
+    uint v = min(from + gl_SubgroupInvocationID, end - 1u);
     uint cell_number = vertex_list[v] & 0xffu, patch_number = vertex_list[v] >> 8u;
     uvec3 cell = cell_in_brick(cell_number);
     uint state = cell_case(cells_in[b * CELLS_PER_BRICK + cell_number]);
@@ -63,12 +66,12 @@ void main() {
     vec3 inner = clamp(corner_position(base + inside_corner), least, most);
     vec3 outer = clamp(corner_position(base + outside_corner), least, most);
     bool done = is_cap;
-    for (int step = 0; step < NEWTON_STEPS + BISECTION_STEPS && !done; ++step) {
+    for (int step = 0; step < NEWTON_STEPS + BISECTION_STEPS && subgroupAny(!done); ++step) {
       Field a = evaluate(p, at.tape_begin, at.tape_count);
       a.d *= inward();
       float excess = inward() * a.f - iso;
       float slope2 = dot(a.d, a.d);
-      done = abs(excess) <= TOLERANCE * size * sqrt(slope2);
+      done = done || abs(excess) <= TOLERANCE * size * sqrt(slope2);
       vec3 move = -excess / max(slope2, 1e-30) * a.d;
       float far = max(max(abs(move.x), abs(move.y)), abs(move.z));
       move *= far > size ? size / far : 1.0;

@@ -19,9 +19,11 @@ layout(push_constant) uniform Constants {
 
 void main() {
   uvec4 job = jobs[first_job + gl_WorkGroupID.x];
-  for (uint n = gl_LocalInvocationID.x; n < job.w; n += gl_WorkGroupSize.x) {
+  for (uint first = 0u; first < job.w; first += gl_WorkGroupSize.x) {
+    uint n = min(first + gl_LocalInvocationID.x, job.w - 1u);  // surplus invocations repeat the last point
     uint place = is_ordered != 0u ? order[job.z + n] : job.z + n;
     vec3 p = vec3(points[3u * place], points[3u * place + 1u], points[3u * place + 2u]);
-    write_result(place, evaluate(p, job.x, job.y));
+    Field a = evaluate(p, job.x, job.y);
+    if (first + gl_LocalInvocationID.x < job.w) write_result(place, a);
   }
 }

@@ -29,6 +29,8 @@ struct KernelKind {
   static KernelKind of(const blobtree::Tape& tape);
   // For those of them that are one leaf.
   static KernelKind single_leaf(const blobtree::Tape& tape);
+  // Of tapes in windows, with what they name, or of those that are not. `shares_loads`: shaders/lib/parameters.glsl.
+  KernelKind windowed(bool is_windowed, bool shares_loads) const;
 };
 
 // Thread-safe. A kernel that two threads want is compiled once, and the second waits.

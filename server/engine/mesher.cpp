@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include "engine/mesh_lattice.h"
 #include "engine/session.h"
 #include "engine/status_macros.h"
 #include "engine/surface_cases.h"
+#include "engine/tape_windows.h"
 
 namespace isofield::engine {
 namespace {
@@ -106,33 +108,44 @@ class Run {
     for (const SurfaceCase& c : surface_cases()) packed.push_back(c.packed());
     const std::vector<std::uint32_t> neighbours = brick_neighbours(list_.bricks);
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    tapes_.emplace(device_, scene_, std::move(list_.code));
+    windows_.reserve(list_.bricks.size());
+    for (Brick& b : list_.bricks) windows_.push_back(tapes_->add(b.tape_begin, b.tape_count));
+    ISOFIELD_RETURN_IF_ERROR(tapes_->upload(session));
     ISOFIELD_ASSIGN_OR_RETURN(bricks_, session.upload(std::span(list_.bricks)));
-    ISOFIELD_ASSIGN_OR_RETURN(code_, session.upload(std::span(list_.code)));
     ISOFIELD_ASSIGN_OR_RETURN(neighbours_, session.upload(std::span(neighbours)));
     ISOFIELD_ASSIGN_OR_RETURN(surface_cases_, session.upload(std::span(packed)));
     ISOFIELD_ASSIGN_OR_RETURN(cases_, session.scratch(list_.bricks.size() * kCells));
     return session.run();
   }
 
-  // Runs a kernel that follows tapes over (brick, place in its slab) pairs: bricks of a single leaf by the kernel that
-  // knows no operator, the others by the scene's.
+  // Runs a kernel that follows tapes over (brick, place in its slab) pairs, which binding 5 lists in `keep`: by window,
+  // bricks of a single leaf by the kernel that knows no operator, the others by the scene's.
   template <class Wanted>
-  absl::Status run_bricks(
-      Session& session, const shaders::Spirv& shader, std::uint32_t first, std::uint32_t count, Wanted is_wanted,
-      std::vector<Buffer>& keep,
-      const std::function<absl::Status(const gpu::Pipeline&, const Buffer& jobs, std::uint32_t)>& dispatch) {
-    for (const bool single : {true, false}) {
-      std::vector<Pair> jobs;
-      for (std::uint32_t b = first; b < first + count; ++b) {
-        if ((list_.bricks[b].tape_count == 1) == single && is_wanted(b)) jobs.push_back({b, b - first});
-      }
-      if (jobs.empty()) continue;
-      ISOFIELD_ASSIGN_OR_RETURN(
-          const gpu::Pipeline* kernel,
-          kernels_.get(shader, single ? KernelKind::single_leaf(scene_.tape()) : KernelKind::of(scene_.tape())));
-      ISOFIELD_ASSIGN_OR_RETURN(Buffer job_buffer, session.upload(std::span(jobs)));
-      keep.push_back(std::move(job_buffer));
-      ISOFIELD_RETURN_IF_ERROR(dispatch(*kernel, keep.back(), static_cast<std::uint32_t>(jobs.size())));
+  absl::Status run_bricks(Session& session, const shaders::Spirv& shader, std::uint32_t first, std::uint32_t count,
+                          Wanted is_wanted, std::vector<Buffer>& keep, gpu::Commands::Bindings own) {
+    struct Group {
+      std::uint32_t window;
+      bool is_single;
+      auto operator<=>(const Group&) const = default;
+    };
+    std::map<Group, std::vector<Pair>> groups;
+    for (std::uint32_t b = first; b < first + count; ++b) {
+      if (is_wanted(b)) groups[{windows_[b], list_.bricks[b].tape_count == 1}].push_back({b, b - first});
+    }
+    if (groups.empty()) return absl::OkStatus();
+    std::vector<Pair> jobs;
+    for (const auto& [group, members] : groups) jobs.insert(jobs.end(), members.begin(), members.end());
+    ISOFIELD_ASSIGN_OR_RETURN(Buffer job_buffer, session.upload(std::span(jobs)));
+    own.push_back({5, &keep.emplace_back(std::move(job_buffer))});
+    Constants constants = constants_;
+    for (const auto& [group, members] : groups) {
+      const KernelKind kind = group.is_single ? KernelKind::single_leaf(scene_.tape()) : KernelKind::of(scene_.tape());
+      ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shader, tapes_->kind(kind, group.window)));
+      constants.count = static_cast<std::uint32_t>(members.size());
+      ISOFIELD_RETURN_IF_ERROR(
+          session.commands().dispatch(*kernel, tapes_->bindings(group.window, own), constants, constants.count));
+      constants.first += constants.count;
     }
     return absl::OkStatus();
   }
@@ -158,12 +171,8 @@ class Run {
       ISOFIELD_ASSIGN_OR_RETURN(Buffer samples, session.scratch(std::size_t{4} * kCorners * count));
       std::vector<Buffer> keep;
       keep.reserve(2);
-      ISOFIELD_RETURN_IF_ERROR(run_bricks(
-          session, shaders::kMeshSample, first, count, [](std::uint32_t) { return true; }, keep,
-          [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
-            return session.commands().dispatch(
-                kernel, scene_.bindings(code_, {{4, &bricks_}, {5, &jobs}, {6, &samples}}), constants_, groups);
-          }));
+      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshSample, first, count,
+                                          [](std::uint32_t) { return true; }, keep, {{4, &bricks_}, {6, &samples}}));
       session.commands().barrier();
       Constants constants = constants_;
       constants.first = first;
@@ -245,30 +254,17 @@ class Run {
       std::vector<Buffer> keep;
       keep.reserve(4);
       ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshVertices, slab.first, slab.count, has_vertices, keep,
-                                          [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
-                                            return session.commands().dispatch(
-                                                kernel,
-                                                scene_.bindings(code_, {{4, &bricks_},
-                                                                        {5, &jobs},
-                                                                        {6, &slab.samples},
-                                                                        {7, &surface_cases_},
-                                                                        {8, &cells_},
-                                                                        {9, &starts_buffer_},
-                                                                        {10, &vertex_list_},
-                                                                        {11, &positions_}}),
-                                                constants_, groups);
-                                          }));
+                                          {{4, &bricks_},
+                                           {6, &slab.samples},
+                                           {7, &surface_cases_},
+                                           {8, &cells_},
+                                           {9, &starts_buffer_},
+                                           {10, &vertex_list_},
+                                           {11, &positions_}}));
       if (request_.with_normals) {
         session.commands().barrier();
-        ISOFIELD_RETURN_IF_ERROR(run_bricks(
-            session, shaders::kMeshNormals, slab.first, slab.count, has_vertices, keep,
-            [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
-              return session.commands().dispatch(
-                  kernel,
-                  scene_.bindings(code_,
-                                  {{4, &bricks_}, {5, &jobs}, {6, &starts_buffer_}, {7, &positions_}, {8, &normals}}),
-                  constants_, groups);
-            }));
+        ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshNormals, slab.first, slab.count, has_vertices, keep,
+                                            {{4, &bricks_}, {6, &starts_buffer_}, {7, &positions_}, {8, &normals}}));
       }
       if (s + 1 == slabs_.size()) {
         ISOFIELD_RETURN_IF_ERROR(session.download(positions_, std::span(mesh_.positions)));
@@ -317,12 +313,13 @@ class Run {
   const MeshRequest& request_;
   const MeshCallbacks& callbacks_;
 
-  BrickList list_;
+  BrickList list_;  // its code has gone to tapes_, and the bricks' tapes begin in their windows
+  std::optional<TapeWindows> tapes_;
+  std::vector<std::uint32_t> windows_;  // of the bricks' tapes
   Constants constants_{};
   std::vector<Slab> slabs_;
   std::vector<Pair> starts_;  // first vertex and first quad of each brick, and the totals
-  Buffer bricks_, code_, neighbours_, surface_cases_, cases_, cells_, starts_buffer_, vertex_list_, quad_list_,
-      positions_;
+  Buffer bricks_, neighbours_, surface_cases_, cases_, cells_, starts_buffer_, vertex_list_, quad_list_, positions_;
   Mesh mesh_;
 };
 

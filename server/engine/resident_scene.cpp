@@ -12,11 +12,11 @@ constexpr std::uint32_t kFirstVolumeBinding = 12;  // shaders/lib/volume.glsl
 absl::StatusOr<std::shared_ptr<const ResidentScene>> ResidentScene::create(gpu::Device& device, VolumeCache& volumes,
                                                                            blobtree::Tape tape) {
   std::shared_ptr<ResidentScene> scene(new ResidentScene);
-  const blobtree::ParameterBuffers parameters = blobtree::lay_out(tape);
+  scene->parameters_ = blobtree::lay_out(tape);
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device));
-  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer leaves, session.upload(std::span(parameters.leaves)));
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer leaves, session.upload(std::span(scene->parameters_.leaves)));
   scene->leaves_ = std::make_shared<const gpu::Buffer>(std::move(leaves));
-  ISOFIELD_RETURN_IF_ERROR(scene->upload_operations(session, parameters));
+  ISOFIELD_RETURN_IF_ERROR(scene->upload_operations(session));
   ISOFIELD_RETURN_IF_ERROR(session.run());
   for (const auto& op : tape.volumes) {
     ISOFIELD_ASSIGN_OR_RETURN(VolumeLease volume, volumes.get(*op));
@@ -30,7 +30,9 @@ absl::StatusOr<std::shared_ptr<const ResidentScene>> ResidentScene::with_operati
                                                                                     blobtree::Tape tape) const {
   std::shared_ptr<ResidentScene> scene(new ResidentScene);
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device));
-  ISOFIELD_RETURN_IF_ERROR(scene->upload_operations(session, blobtree::lay_out_operations(tape)));
+  scene->parameters_ = blobtree::lay_out_operations(tape);
+  scene->parameters_.leaves = parameters_.leaves;
+  ISOFIELD_RETURN_IF_ERROR(scene->upload_operations(session));
   ISOFIELD_RETURN_IF_ERROR(session.run());
   scene->leaves_ = leaves_;
   scene->volumes_ = volumes_;
@@ -38,9 +40,9 @@ absl::StatusOr<std::shared_ptr<const ResidentScene>> ResidentScene::with_operati
   return scene;
 }
 
-absl::Status ResidentScene::upload_operations(Session& session, const blobtree::ParameterBuffers& parameters) {
-  ISOFIELD_ASSIGN_OR_RETURN(operations_, session.upload(std::span(parameters.operations)));
-  ISOFIELD_ASSIGN_OR_RETURN(tables_, session.upload(std::span(parameters.tables)));
+absl::Status ResidentScene::upload_operations(Session& session) {
+  ISOFIELD_ASSIGN_OR_RETURN(operations_, session.upload(std::span(parameters_.operations)));
+  ISOFIELD_ASSIGN_OR_RETURN(tables_, session.upload(std::span(parameters_.tables)));
   return absl::OkStatus();
 }
 

@@ -27,6 +27,7 @@ class ResidentScene {
   absl::StatusOr<std::shared_ptr<const ResidentScene>> with_operations(gpu::Device& device, blobtree::Tape tape) const;
 
   const blobtree::Tape& tape() const { return tape_; }
+  const blobtree::ParameterBuffers& parameters() const { return parameters_; }
   // The bindings of a kernel that runs tapes pruned from this scene's, which lie in `code`, with its own ones.
   gpu::Commands::Bindings bindings(const gpu::Buffer& code, const gpu::Commands::Bindings& own) const;
   // Volumes that it shares with others count whole.
@@ -37,9 +38,10 @@ class ResidentScene {
 
  private:
   ResidentScene() = default;
-  absl::Status upload_operations(Session& session, const blobtree::ParameterBuffers& parameters);
+  absl::Status upload_operations(Session& session);
 
   blobtree::Tape tape_;
+  blobtree::ParameterBuffers parameters_;
   std::shared_ptr<const gpu::Buffer> leaves_;
   gpu::Buffer operations_, tables_;
   std::vector<VolumeLease> volumes_;  // by slot

@@ -69,22 +69,22 @@ absl::Status Commands::dispatch(const Pipeline& pipeline, const Bindings& bindin
     std::vector<vk::DescriptorBufferInfo> infos;
     std::vector<vk::WriteDescriptorSet> writes;
     infos.reserve(kBindings + kUniformBindings);
-    const auto bind = [&](std::uint32_t binding, const Buffer& buffer) {
+    const auto bind = [&](std::uint32_t binding, const Buffer& buffer, std::size_t offset) {
       const bool is_uniform = binding >= kBindings;
-      infos.emplace_back(**buffer.impl().buffer, 0,
-                         is_uniform ? std::min<vk::DeviceSize>(buffer.size(), kUniformBytes) : VK_WHOLE_SIZE);
+      infos.emplace_back(**buffer.impl().buffer, offset,
+                         is_uniform ? std::min<vk::DeviceSize>(buffer.size() - offset, kUniformBytes) : VK_WHOLE_SIZE);
       writes.emplace_back(set, binding, 0, 1,
                           is_uniform ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer, nullptr,
                           &infos.back());
     };
     std::uint32_t named = 0;
-    for (const auto& [binding, buffer] : bindings) {
-      bind(binding, *buffer);
-      named |= 1u << binding;
+    for (const Binding& b : bindings) {
+      bind(b.binding, *b.buffer, b.offset);
+      named |= 1u << b.binding;
     }
     // Vulkan wants a buffer wherever the module, as yet unspecialised, could read one.
     for (std::uint32_t binding = 0; binding < kBindings + kUniformBindings && !bindings.empty(); ++binding) {
-      if (!(named >> binding & 1u)) bind(binding, *bindings.front().second);
+      if (!(named >> binding & 1u)) bind(binding, *bindings.front().buffer, 0);
     }
     impl_->device.device->updateDescriptorSets(writes, {});
     const vk::raii::CommandBuffer& b = impl_->buffer;

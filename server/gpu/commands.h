@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "gpu/buffer.h"
@@ -23,7 +22,13 @@ class Commands {
   Commands& operator=(Commands&&) noexcept;
   ~Commands();
 
-  using Bindings = std::vector<std::pair<std::uint32_t, const Buffer*>>;
+  // Of a uniform buffer a part may be bound, from a multiple of kUniformAlignment on.
+  struct Binding {
+    std::uint32_t binding;
+    const Buffer* buffer;
+    std::size_t offset = 0;
+  };
+  using Bindings = std::vector<Binding>;
   // Runs `groups` workgroups along x, at most kMaxGroups. Nothing is recorded for 0. Bindings that the pipeline
   // declares but its specialisation never reads may go unnamed.
   absl::Status dispatch(const Pipeline& pipeline, const Bindings& bindings, std::span<const std::byte> push_constants,
@@ -53,6 +58,7 @@ class Commands {
 // limit, so device_selection asks for it.
 inline constexpr std::uint32_t kFirstUniformBinding = 16;
 inline constexpr std::size_t kUniformBytes = 65'536;
+inline constexpr std::size_t kUniformAlignment = 256;  // the most that a Vulkan device may ask for
 
 // Groups a dispatch may have.
 inline constexpr std::uint32_t kMaxGroups = 65'535;

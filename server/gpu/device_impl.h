@@ -13,7 +13,7 @@ namespace isofield::gpu {
 // Bindings of every pipeline: storage buffers 0 to kBindings - 1, uniform buffers from there on, and kPushBytes of push
 // constants.
 inline constexpr std::uint32_t kBindings = 16;
-inline constexpr std::uint32_t kUniformBindings = 2;
+inline constexpr std::uint32_t kUniformBindings = 3;
 inline constexpr std::uint32_t kPushBytes = 128;
 
 struct Device::Impl {

@@ -24,13 +24,15 @@ const float FARTHEST = 1e10;
 
 Field evaluate(vec3 point, uint begin, uint count) {
   vec3 p = clamp(point, vec3(-FARTHEST), vec3(FARTHEST));
-  Field acc = zero_field();
+  // The first instruction pushes. Out of the loop, since on lavapipe a loop runs all of its body for it, blends included.
+  uvec4 start = instruction_at(begin);
+  Field acc = leaf_field(p, start.x & 0xffu, start.y);
   Field s0u = acc, s1u = acc, s2u = acc, s3u = acc, s4u = acc, s5u = acc, s6u = acc, s7u = acc, s8u = acc, s9u = acc,
         s10u = acc, s11u = acc, s12u = acc, s13u = acc, s14u = acc, s15u = acc;
   Field first = acc, second = acc;  // of an operator with a mode
   uint len = TAPE_LENGTH > 0u ? TAPE_LENGTH : count;
-  for (uint n = 0u; n < len; ++n) {
-    uvec4 i = tape[begin + n];
+  for (uint n = 1u; n < len; ++n) {
+    uvec4 i = instruction_at(begin + n);
     uint operand = i.x & 0xffu, op = has_modes() ? i.x >> 8u & 0xffu : i.x >> 8u;
     uint mode = has_modes() ? i.x >> 16u : 0u;
     Field v = leaf_field(p, operand, i.y);
@@ -40,52 +42,50 @@ Field evaluate(vec3 point, uint begin, uint count) {
       FOR_EACH_REGISTER_DOWN;
     }
     Field r = v;
-    if (n > 0u) {
-      if (STACK_DEPTH > 0u && op == OPERATOR_PUSH) {
-        FOR_EACH_REGISTER_UP;
-        s0u = acc;
-      }
-      // The operands in their order, and as the form of the operator wants them.
-      Field a = acc, b = v;
-      if (has_modes()) {
-        bool is_exchanged = (mode & MODE_EXCHANGED) != 0u;
-        a = select_field(acc, v, is_exchanged);
-        b = select_field(v, acc, is_exchanged);
-        first = a;
-        second = b;
-        a = select_field(a, complement(a, mode), (mode & 3u) != FORM_UNION);
-        b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
-      }
-      if (is_operator(op, OPERATOR_GRADIENT)) {
-        r = blend_by_gradient(a, b, operation_at(i.z), SMOOTH_SILHOUETTE, false);
-      } else if (is_operator(op, OPERATOR_GRADIENT_TABLE)) {
-        uint silhouette = silhouette_half(floatBitsToUint(operation_at(i.z).y), a.f, b.f);
-        r = blend_by_gradient(a, b, operation_at(i.z), silhouette, false);
-      } else if (is_operator(op, OPERATOR_GRADIENT_VOLUME)) {
-        r = blend_by_gradient(a, b, operation_at(i.z), floatBitsToUint(operation_at(i.z).y), true);
-      } else if (op != OPERATOR_PUSH) {
-        Angle angle = no_angle();
-        if (may_follow_angle()) angle = angle_between(a, b);
-        r = unite(a, b, op, i.z, angle);
-      }
-      if (has_modes()) r = formed(r, first, second, mode);
-      if (is_operator(op, OPERATOR_LINEAR)) r = linear(acc, operation_at(i.z).x, operation_at(i.z).y);
-      if (is_operator(op, OPERATOR_SOFTEN)) r = softened(acc, operation_at(i.z).x);
-      bool is_btk = is_operator(op, OPERATOR_BTK);
-      if (is_btk || is_operator(op, OPERATOR_SUPERELLIPTIC)) {
-        // The last operand is the accumulator, those before wait below it in the order of the registers.
-        Field x[MAX_OPERANDS] = Field[MAX_OPERANDS](acc, s0u, s1u, s2u, s3u, s4u, s5u, s6u, s7u, s8u, s9u, s10u, s11u,
-                                                    s12u, s13u, s14u);
-        uint form = mode & 3u;
-        if (has_modes() && form != FORM_UNION) turn_operands(x, i.y, form);
-        Angle angle = no_angle();
-        if (may_follow_angle()) angle = angle_between(x[0], x[1]);
-        if (is_btk) r = blend_btk(x, i.y, i.z, angle);
-        else r = blend_superelliptic(x, i.y, i.z, angle);
-        if (has_modes()) r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
-        for (int k = bitCount(i.y); k > 1; --k) {
-          FOR_EACH_REGISTER_DOWN;
-        }
+    if (STACK_DEPTH > 0u && op == OPERATOR_PUSH) {
+      FOR_EACH_REGISTER_UP;
+      s0u = acc;
+    }
+    // The operands in their order, and as the form of the operator wants them.
+    Field a = acc, b = v;
+    if (has_modes()) {
+      bool is_exchanged = (mode & MODE_EXCHANGED) != 0u;
+      a = select_field(acc, v, is_exchanged);
+      b = select_field(v, acc, is_exchanged);
+      first = a;
+      second = b;
+      a = select_field(a, complement(a, mode), (mode & 3u) != FORM_UNION);
+      b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
+    }
+    if (is_operator(op, OPERATOR_GRADIENT)) {
+      r = blend_by_gradient(a, b, operation_at(i.z), SMOOTH_SILHOUETTE, false);
+    } else if (is_operator(op, OPERATOR_GRADIENT_TABLE)) {
+      uint silhouette = silhouette_half(floatBitsToUint(operation_at(i.z).y), a.f, b.f);
+      r = blend_by_gradient(a, b, operation_at(i.z), silhouette, false);
+    } else if (is_operator(op, OPERATOR_GRADIENT_VOLUME)) {
+      r = blend_by_gradient(a, b, operation_at(i.z), floatBitsToUint(operation_at(i.z).y), true);
+    } else if (op != OPERATOR_PUSH) {
+      Angle angle = no_angle();
+      if (may_follow_angle()) angle = angle_between(a, b);
+      r = unite(a, b, op, i.z, angle);
+    }
+    if (has_modes()) r = formed(r, first, second, mode);
+    if (is_operator(op, OPERATOR_LINEAR)) r = linear(acc, operation_at(i.z).x, operation_at(i.z).y);
+    if (is_operator(op, OPERATOR_SOFTEN)) r = softened(acc, operation_at(i.z).x);
+    bool is_btk = is_operator(op, OPERATOR_BTK);
+    if (is_btk || is_operator(op, OPERATOR_SUPERELLIPTIC)) {
+      // The last operand is the accumulator, those before wait below it in the order of the registers.
+      Field x[MAX_OPERANDS] = Field[MAX_OPERANDS](acc, s0u, s1u, s2u, s3u, s4u, s5u, s6u, s7u, s8u, s9u, s10u, s11u,
+                                                  s12u, s13u, s14u);
+      uint form = mode & 3u;
+      if (has_modes() && form != FORM_UNION) turn_operands(x, i.y, form);
+      Angle angle = no_angle();
+      if (may_follow_angle()) angle = angle_between(x[0], x[1]);
+      if (is_btk) r = blend_btk(x, i.y, i.z, angle);
+      else r = blend_superelliptic(x, i.y, i.z, angle);
+      if (has_modes()) r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
+      for (int k = bitCount(i.y); k > 1; --k) {
+        FOR_EACH_REGISTER_DOWN;
       }
     }
     acc = r;

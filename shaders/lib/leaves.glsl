@@ -147,10 +147,8 @@ struct Placement {
 };
 
 Placement place(vec3 p, uint record) {
-  vec4 anchor = leaf_at(record);
-  vec4 r0 = leaf_at(record + 1u);
-  vec4 r1 = leaf_at(record + 2u);
-  vec4 r2 = leaf_at(record + 3u);
+  Pair first = leaf_pair_at(record), second = leaf_pair_at(record + 2u);
+  vec4 anchor = first.a, r0 = first.b, r1 = second.a, r2 = second.b;
   vec3 v = p - anchor.xyz;
   return Placement(vec3(dot(r0.xyz, v), dot(r1.xyz, v), dot(r2.xyz, v)), mat3(r0.xyz, r1.xyz, r2.xyz),
                    vec3(r0.w, r1.w, r2.w), anchor.w);
@@ -167,14 +165,13 @@ Field placed_field(Placement at, Distance s) {
 Field leaf_field(vec3 p, uint operand, uint record) {
   Field v = zero_field();
   if (is_operand(operand, OPERAND_SPHERE)) {
-    vec4 centre = leaf_at(record);
-    v = soften(sphere_distance(p - centre.xyz, leaf_at(record + 1u).x), centre.w);
+    Pair sphere = leaf_pair_at(record);
+    v = soften(sphere_distance(p - sphere.a.xyz, sphere.b.x), sphere.a.w);
   }
   if (is_operand(operand, OPERAND_SEGMENT)) {
-    vec4 a = leaf_at(record);
-    vec4 axis = leaf_at(record + 1u);
+    Pair line = leaf_pair_at(record);
     vec4 cone = leaf_at(record + 2u);
-    v = soften(segment_distance(p - a.xyz, axis.xyz, axis.w, cone.x, cone.y, cone.z), a.w);
+    v = soften(segment_distance(p - line.a.xyz, line.b.xyz, line.b.w, cone.x, cone.y, cone.z), line.a.w);
   }
   if (is_operand(operand, OPERAND_BOX)) {
     Placement at = place(p, record);

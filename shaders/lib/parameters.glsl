@@ -2,24 +2,60 @@
 #ifndef PARAMETERS_GLSL
 #define PARAMETERS_GLSL
 
+#extension GL_KHR_shader_subgroup_shuffle : require
+
 layout(std430, binding = 0) readonly buffer Leaves { vec4 leaves[]; };
 layout(std430, binding = 1) readonly buffer Operations { vec4 operations[]; };
 layout(std430, binding = 2) readonly buffer Tables { vec4 tables[]; };
-// The first two once more, where they fit: on lavapipe a load from a storage buffer inside of a loop costs a loop over the
-// lanes, a load from a uniform buffer does not (meshes of sums take 0.78 of the time).
+layout(std430, binding = 3) readonly buffer Tape { uvec4 tape[]; };
+// The first two and the tape once more: where they fit, or in windows that do (server/engine/tape_windows.h).
 layout(std140, binding = 16) uniform UniformLeaves { vec4 uniform_leaves[4096]; };
 layout(std140, binding = 17) uniform UniformOperations { vec4 uniform_operations[4096]; };
-layout(constant_id = 6) const uint UNIFORM_SET = 0u;  // 1: leaves, 2: operations
+layout(std140, binding = 18) uniform UniformTape { uvec4 uniform_tape[4096]; };
+// 1: leaves, 2: operations, 4: tape; 8, with all of these: invocations share loads.
+layout(constant_id = 6) const uint UNIFORM_SET = 0u;
+
+// On lavapipe a load from a storage buffer inside of a loop is a loop over the lanes, and one from a uniform buffer some
+// 100 instructions a vec4, also where all lanes ask for the same. So with subgroups of 8 each lane loads one word of two
+// vec4s, and takes the others' by shuffles of one instruction: sums are sampled in 0.6 of the time. All invocations of a
+// subgroup must be active.
+bool shares_loads() { return (UNIFORM_SET & 8u) != 0u; }
+
+// Two consecutive vec4s.
+struct Pair {
+  vec4 a, b;
+};
+
+uint shared_vec4() { return gl_SubgroupInvocationID >> 2u & 1u; }
+uint shared_word() { return gl_SubgroupInvocationID & 3u; }
+vec4 of_lanes(float word, uint from) {
+  return vec4(subgroupShuffle(word, from), subgroupShuffle(word, from + 1u), subgroupShuffle(word, from + 2u),
+              subgroupShuffle(word, from + 3u));
+}
 
 vec4 leaf_at(uint i) {
+  if (shares_loads()) return of_lanes(uniform_leaves[i][shared_word()], 0u);
   if ((UNIFORM_SET & 1u) != 0u) return uniform_leaves[i];
   return leaves[i];
 }
+Pair leaf_pair_at(uint i) {
+  if (!shares_loads()) return Pair(leaf_at(i), leaf_at(i + 1u));
+  float word = uniform_leaves[i + shared_vec4()][shared_word()];
+  return Pair(of_lanes(word, 0u), of_lanes(word, 4u));
+}
 vec4 operation_at(uint i) {
+  if (shares_loads()) return of_lanes(uniform_operations[i][shared_word()], 0u);
   if ((UNIFORM_SET & 2u) != 0u) return uniform_operations[i];
   return operations[i];
 }
 
-layout(std430, binding = 3) readonly buffer Tape { uvec4 tape[]; };
+uvec4 instruction_at(uint i) {
+  if (shares_loads()) {
+    uint word = uniform_tape[i][shared_word()];
+    return uvec4(subgroupShuffle(word, 0u), subgroupShuffle(word, 1u), subgroupShuffle(word, 2u), 0u);
+  }
+  if ((UNIFORM_SET & 4u) != 0u) return uniform_tape[i];
+  return tape[i];
+}
 
 #endif

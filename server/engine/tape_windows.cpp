@@ -1,0 +1,45 @@
+#include "engine/tape_windows.h"
+
+#include "engine/status_macros.h"
+
+namespace isofield::engine {
+namespace {
+
+// shaders/lib/parameters.glsl.
+constexpr std::uint32_t kLeaves = gpu::kFirstUniformBinding, kOperations = kLeaves + 1, kTape = kLeaves + 2;
+
+static_assert(blobtree::kWindowSize * sizeof(blobtree::Float4) == gpu::kUniformBytes);
+static_assert(blobtree::kWindowAlignment * sizeof(blobtree::Float4) == gpu::kUniformAlignment);
+
+}  // namespace
+
+bool TapeWindows::can_share_loads(const gpu::Device& device) {
+  const gpu::DeviceDescription& d = device.description();
+  return d.type == "cpu" && d.subgroup_size == 8;
+}
+
+absl::Status TapeWindows::upload(Session& session) {
+  packer_.finish();
+  ISOFIELD_ASSIGN_OR_RETURN(windows_, session.upload(std::span(packer_.data())));
+  if (has_long_tapes_) {
+    ISOFIELD_ASSIGN_OR_RETURN(long_tapes_, session.upload(std::span(code_)));
+  }
+  return absl::OkStatus();
+}
+
+gpu::Commands::Bindings TapeWindows::bindings(std::uint32_t window, const gpu::Commands::Bindings& own) const {
+  if (window == kNoWindow) return scene_->bindings(long_tapes_, own);
+  gpu::Commands::Bindings all = scene_->bindings(windows_, own);
+  const blobtree::Window& w = packer_.windows()[window];
+  const auto bind = [&](std::uint32_t binding, std::uint32_t place) {
+    if (place == blobtree::Window::kWhole) return;
+    std::erase_if(all, [&](const gpu::Commands::Binding& b) { return b.binding == binding; });
+    all.push_back({binding, &windows_, place * sizeof(blobtree::Float4)});
+  };
+  bind(kTape, w.code);
+  bind(kLeaves, w.leaves);
+  bind(kOperations, w.operations);
+  return all;
+}
+
+}  // namespace isofield::engine
