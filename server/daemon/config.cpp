@@ -26,6 +26,7 @@ std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv
 
 ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   Config c;
+  int delay_us = 0;
   CLI::App app("isofieldd: keeps implicit surfaces on a GPU and answers fields and meshes over gRPC.", "isofieldd");
   app.option_defaults()->always_capture_default()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.set_version_flag("--version", "isofieldd " + version);
@@ -63,12 +64,23 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   app.add_option("--max-mesh-cells", c.limits.max_mesh_cells, "Cells that a mesh request may look at")
       ->envname("ISOFIELD_MAX_MESH_CELLS")
       ->check(CLI::Range(std::uint64_t{64}, std::uint64_t{1} << 30));
+  app.add_option("--max-queued-requests", c.limits.queue.max_requests, "Evaluate calls that wait or run")
+      ->envname("ISOFIELD_MAX_QUEUED_REQUESTS")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 20));
+  app.add_option("--max-queued-points", c.limits.queue.max_points, "Points of Evaluate calls that wait or run")
+      ->envname("ISOFIELD_MAX_QUEUED_POINTS")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32));
+  app.add_option("--queue-delay-us", delay_us,
+                 "Microseconds that a small Evaluate call may be held back for others to join it")
+      ->envname("ISOFIELD_QUEUE_DELAY_US")
+      ->check(CLI::Range(0, 1'000'000));
   try {
     app.parse(arguments_of(app, argc, argv));
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return {std::nullopt, status == 0 ? 0 : 2};
   }
+  c.limits.queue.delay = std::chrono::microseconds(delay_us);
   c.limits.max_streams = c.max_threads * 3 / 4;
   return {c, 0};
 }

@@ -106,7 +106,7 @@ absl::Status run(const Config& config, const std::string& version) {
   options.validation = config.validation;
   options.on_validation_message = [](const std::string& message) { spdlog::error("Vulkan validation: {}", message); };
   ISOFIELD_ASSIGN_OR_RETURN(const std::unique_ptr<engine::Engine> engine,
-                            engine::Engine::create(options, config.limits.scene));
+                            engine::Engine::create(options, config.limits.scene, config.limits.queue));
   const gpu::DeviceDescription& d = engine->device().description();
   spdlog::info("isofieldd {} on {} ({}, Vulkan {})", version, d.name, d.driver, d.vulkan_version);
 

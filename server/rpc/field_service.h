@@ -22,8 +22,8 @@ class FieldService final : public v1::FieldService::Service {
                             grpc::ServerWriter<v1::EvaluateGridResponse>*) override;
 
  private:
-  absl::Status evaluate(const grpc::ServerContext& context, const engine::ResidentScene& scene,
-                        const v1::Tensor& points, engine::Quantity quantity, v1::EvaluateResponse& response);
+  // `batch` lacks the points, and where the results go.
+  absl::Status evaluate(engine::PointBatch batch, const v1::Tensor& points, v1::EvaluateResponse& response);
 
   const SceneSource& scenes_;
   engine::Engine& engine_;

@@ -70,7 +70,8 @@ class Caller {
 
 class EvaluateCaller final : public Caller {
  public:
-  EvaluateCaller(const std::string& address, int seed, int points) : stub_(v1::FieldService::NewStub(connect(address))) {
+  EvaluateCaller(const std::string& address, int seed, int points)
+      : stub_(v1::FieldService::NewStub(connect(address))) {
     test_support::Random random(seed);
     std::vector<float> xyz(3 * points);
     for (float& x : xyz) x = static_cast<float>(random.number(-1, 1));
@@ -138,7 +139,8 @@ Row measure(const std::vector<std::unique_ptr<Caller>>& callers, bool in_turn, d
     --open;
   }
   const Clock::time_point start = Clock::now();
-  const Clock::time_point end = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const Clock::time_point end =
+      start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   for (std::size_t i = 0; i < (in_turn ? 1 : total); ++i) start_next();
   void* tag = nullptr;
   bool is_ok = false;
@@ -200,8 +202,11 @@ int main(int argc, char** argv) {
   check(scenes->PutScene(&context, put, &stored));
   std::printf("%-28s %-14s %9s %12s %9s %9s %9s %9s\n", "request", "", "calls/s", "points/s", "mean us", "p50 us",
               "p99 us", "p99/mean");
-  compare("GetInfo", [&](int) { return std::make_unique<InfoCaller>(address); }, 0, seconds);
-  compare("Evaluate, 0 points", [&](int i) { return std::make_unique<EvaluateCaller>(address, i, 0); }, 0, seconds);
-  compare("Evaluate, 64 points", [&](int i) { return std::make_unique<EvaluateCaller>(address, i, kPoints); }, kPoints,
-          seconds);
+  compare(
+      "GetInfo", [&](int) { return std::make_unique<InfoCaller>(address); }, 0, seconds);
+  compare(
+      "Evaluate, 0 points", [&](int i) { return std::make_unique<EvaluateCaller>(address, i, 0); }, 0, seconds);
+  compare(
+      "Evaluate, 64 points", [&](int i) { return std::make_unique<EvaluateCaller>(address, i, kPoints); }, kPoints,
+      seconds);
 }
