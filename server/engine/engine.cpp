@@ -74,6 +74,11 @@ absl::Status Engine::evaluate(const PointBatch& batch) {
   return queue_.evaluate(batch);
 }
 
+void Engine::submit(PointBatch batch, EvaluationQueue::Done done) {
+  if (const absl::Status s = fields_.prepare(*batch.scene, batch.quantity); !s.ok()) return done(s);
+  queue_.submit(std::move(batch), std::move(done));
+}
+
 Engine::Residency Engine::residency() const {
   const std::lock_guard lock(mutex_);
   Residency r{resident_.size(), volumes_.usage().bytes};

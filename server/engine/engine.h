@@ -52,6 +52,7 @@ class Engine {
 
   // Beside others' requests; errors as of EvaluationQueue.
   absl::Status evaluate(const PointBatch& batch);
+  void submit(PointBatch batch, EvaluationQueue::Done done);
 
   gpu::Device& device() { return *device_; }
   FieldEvaluator& fields() { return fields_; }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "engine/status_macros.h"
 
@@ -35,24 +36,62 @@ std::optional<std::int64_t> retry_after_ms(const absl::Status& status) {
   return ms;
 }
 
-// Counted while it lives.
-class EvaluationQueue::Admission {
- public:
-  Admission(EvaluationQueue& queue, const PointBatch& batch) : queue_(queue), batch_(batch) {}
-  ~Admission() { queue_.leave(batch_); }
-  Admission(const Admission&) = delete;
-  Admission& operator=(const Admission&) = delete;
+EvaluationQueue::~EvaluationQueue() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+  }
+  left_over_.notify_one();
+  dispatcher_.join();
+}
 
- private:
-  EvaluationQueue& queue_;
-  const PointBatch& batch_;
-};
+void EvaluationQueue::submit(PointBatch batch, Done done) {
+  if (batch.xyz.empty()) return done(absl::OkStatus());
+  if (const absl::Status s = admit(batch); !s.ok()) return done(s);
+  auto self = std::make_unique<Waiting>(Waiting{std::move(batch), std::move(done), {}});
+  if (points_of(self->batch) > kSmallPoints) {
+    self->status = evaluate_large(self->batch);
+    return answer(*self);
+  }
+  Batches answered;
+  {
+    std::unique_lock lock(mutex_);
+    waiting_points_ += points_of(self->batch);
+    waiting_.push_back(std::move(self));
+    more_came_.notify_one();
+    if (is_led_) return;
+    answered = run_next(lock);
+  }
+  for (const auto& a : answered) answer(*a);
+}
 
 absl::Status EvaluationQueue::evaluate(const PointBatch& batch) {
-  if (batch.xyz.empty()) return absl::OkStatus();
-  ISOFIELD_RETURN_IF_ERROR(admit(batch));
-  const Admission admission(*this, batch);
-  return points_of(batch) <= kSmallPoints ? evaluate_small(batch) : evaluate_large(batch);
+  // Shared, so that it outlives the call of `done` that ends the wait.
+  const auto outcome = std::make_shared<std::promise<absl::Status>>();
+  std::future<absl::Status> future = outcome->get_future();
+  submit(batch, [outcome](const absl::Status& status) { outcome->set_value(status); });
+  return future.get();
+}
+
+void EvaluationQueue::dispatch() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    left_over_.wait(lock, [&] { return is_over_ || (!is_led_ && !waiting_.empty()); });
+    if (is_over_) return;
+    const Batches answered = run_next(lock);
+    lock.unlock();
+    for (const auto& a : answered) answer(*a);
+    lock.lock();
+  }
+}
+
+void EvaluationQueue::answer(Waiting& batch) {
+  {
+    const std::lock_guard lock(mutex_);
+    --requests_;
+    points_ -= points_of(batch.batch);
+  }
+  batch.done(batch.status);
 }
 
 std::size_t EvaluationQueue::waiting() const {
@@ -67,12 +106,6 @@ absl::Status EvaluationQueue::admit(const PointBatch& batch) {
   ++requests_;
   points_ += points_of(batch);
   return absl::OkStatus();
-}
-
-void EvaluationQueue::leave(const PointBatch& batch) {
-  const std::lock_guard lock(mutex_);
-  --requests_;
-  points_ -= points_of(batch);
 }
 
 absl::Status EvaluationQueue::refusal() const {
@@ -93,62 +126,41 @@ absl::Status EvaluationQueue::evaluate_large(const PointBatch& batch) {
   return absl::IsCancelled(status) && is_late() ? deadline_exceeded() : status;
 }
 
-absl::Status EvaluationQueue::evaluate_small(const PointBatch& batch) {
-  Waiting self{batch};
-  std::unique_lock lock(mutex_);
-  waiting_.push_back(&self);
-  waiting_points_ += points_of(batch);
-  more_came_.notify_one();
-  while (!self.is_done) {
-    if (is_led_) {
-      self.changed.wait(lock);
-      continue;
-    }
-    is_led_ = true;
-    lock.unlock();
-    run_next();
-    lock.lock();
-    is_led_ = false;
-  }
-  // One of those who still wait goes on.
-  if (!is_led_ && !waiting_.empty()) waiting_.front()->changed.notify_one();
-  return self.status;
-}
-
-// By the caller that leads: what is to go next is decided when the device is free.
-void EvaluationQueue::run_next() {
-  std::unique_lock lock(mutex_);
+// What is to go next is decided when the device is free. The lock is given up in between, and the answers are the
+// caller's to give: the next submission need not wait for them.
+EvaluationQueue::Batches EvaluationQueue::run_next(std::unique_lock<std::mutex>& lock) {
+  is_led_ = true;
   wait_for_more(lock);
   const gpu::Urgency urgency = most_urgent();
   lock.unlock();
   gpu::Turns::Turn turn = turns_.take(urgency);
   lock.lock();
-  const std::vector<Waiting*> joined = take_next();
+  Batches taken = take_next();
   lock.unlock();
   std::vector<Waiting*> running;
-  for (Waiting* w : joined) {
+  for (const auto& w : taken) {
     if (w->batch.deadline <= now_()) {
       w->status = deadline_exceeded();
     } else if (w->batch.cancelled && w->batch.cancelled()) {
       w->status = absl::CancelledError("the request was cancelled");
     } else {
-      running.push_back(w);
+      running.push_back(w.get());
     }
   }
   if (!running.empty()) {
     const absl::Status status = run_joined(running, std::move(turn));
     for (Waiting* w : running) w->status = status;
   }
+  turn = {};
   lock.lock();
-  for (Waiting* w : joined) {
-    w->is_done = true;
-    w->changed.notify_one();  // under the lock: it may be gone after that
-  }
+  is_led_ = false;
+  if (!waiting_.empty()) left_over_.notify_one();
+  return taken;
 }
 
 gpu::Urgency EvaluationQueue::most_urgent() const {
   gpu::Urgency most = urgency_of(waiting_.front()->batch);
-  for (const Waiting* w : waiting_) {
+  for (const auto& w : waiting_) {
     if (const gpu::Urgency u = urgency_of(w->batch); gpu::is_more_urgent(u, most)) most = u;
   }
   return most;
@@ -160,22 +172,24 @@ void EvaluationQueue::wait_for_more(std::unique_lock<std::mutex>& lock) {
 }
 
 // The first one, and those that can go with it in the order of their urgency.
-std::vector<EvaluationQueue::Waiting*> EvaluationQueue::take_next() {
-  std::vector<Waiting*> order(waiting_.begin(), waiting_.end());
+EvaluationQueue::Batches EvaluationQueue::take_next() {
+  std::vector<std::unique_ptr<Waiting>*> order;
+  for (auto& w : waiting_) order.push_back(&w);
   const bool is_oldest_first = ++picks_ % gpu::kPatience == 0;
-  std::stable_sort(order.begin() + (is_oldest_first ? 1 : 0), order.end(), [](const Waiting* a, const Waiting* b) {
-    return gpu::is_more_urgent(urgency_of(a->batch), urgency_of(b->batch));
+  std::stable_sort(order.begin() + (is_oldest_first ? 1 : 0), order.end(), [](const auto* a, const auto* b) {
+    return gpu::is_more_urgent(urgency_of((*a)->batch), urgency_of((*b)->batch));
   });
-  std::vector<Waiting*> joined;
+  const PointBatch& first = (*order.front())->batch;
+  Batches joined;
   std::size_t points = 0;
-  for (Waiting* w : order) {
-    const PointBatch& first = order.front()->batch;
-    if (w->batch.scene != first.scene || w->batch.quantity != first.quantity) continue;
-    if (!joined.empty() && points + points_of(w->batch) > kJoinedPoints) break;
-    points += points_of(w->batch);
-    joined.push_back(w);
+  for (std::unique_ptr<Waiting>* w : order) {
+    const PointBatch& batch = (*w)->batch;
+    if (batch.scene != first.scene || batch.quantity != first.quantity) continue;
+    if (!joined.empty() && points + points_of(batch) > kJoinedPoints) break;
+    points += points_of(batch);
+    joined.push_back(std::move(*w));
   }
-  for (Waiting* w : joined) std::erase(waiting_, w);
+  std::erase(waiting_, nullptr);
   waiting_points_ -= points;
   return joined;
 }

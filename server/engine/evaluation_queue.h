@@ -7,10 +7,11 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <list>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
+#include <thread>
 #include <vector>
 
 #include "engine/field_evaluator.h"
@@ -46,8 +47,9 @@ std::optional<std::int64_t> retry_after_ms(const absl::Status& status);
 // urgent first: higher priority, then earlier deadline, then first come; the last of every kPatience submissions is
 // that of the batch that has waited longest. A large batch goes alone, and small ones pass between its pieces.
 //
-// There is no thread of its own: a caller whose batch waits and who finds no other at it runs the next submission, with
-// whatever is in it. So a lone batch costs no change of threads. Thread-safe.
+// A caller who finds nobody at it runs the next submission, with what is in it, so that a lone batch costs no change of
+// threads; what waits then is the queue's own thread's, and the next caller's. Thread-safe; nothing may wait when it is
+// destroyed.
 class EvaluationQueue {
  public:
   // Batches up to this size are small, and so many points at most are joined.
@@ -60,10 +62,20 @@ class EvaluationQueue {
   using Clock = std::function<gpu::Deadline()>;
 
   EvaluationQueue(gpu::Turns& turns, Run run, const QueueLimits& limits, Clock now = std::chrono::system_clock::now)
-      : turns_(turns), run_(std::move(run)), limits_(limits), now_(std::move(now)) {}
+      : turns_(turns), run_(std::move(run)), limits_(limits), now_(std::move(now)), dispatcher_([this] {
+          dispatch();
+        }) {}
+  ~EvaluationQueue();
 
-  // Until `out` is written. RESOURCE_EXHAUSTED: the queue is full; at once, and with retry_after_ms. DEADLINE_EXCEEDED,
-  // CANCELLED: before it was run, or between pieces. Others: those of the evaluation, which all in a submission share.
+  // Called once with the outcome, when `out` is written: on the caller's thread, or on that of whoever ran the
+  // submission.
+  using Done = std::function<void(const absl::Status&)>;
+
+  // RESOURCE_EXHAUSTED: the queue is full; at once, and with retry_after_ms. DEADLINE_EXCEEDED, CANCELLED: before it
+  // was run, or between pieces. Others: those of the evaluation, which all in a submission share. A large batch is run
+  // before this returns.
+  void submit(PointBatch batch, Done done);
+  // The same, and waits for the outcome.
   absl::Status evaluate(const PointBatch& batch);
 
   // Small batches that wait.
@@ -71,21 +83,20 @@ class EvaluationQueue {
 
  private:
   struct Waiting {
-    const PointBatch& batch;
-    bool is_done = false;
+    PointBatch batch;
+    Done done;
     absl::Status status;
-    std::condition_variable changed;
   };
-  class Admission;
+  using Batches = std::vector<std::unique_ptr<Waiting>>;
 
   absl::Status admit(const PointBatch& batch);
-  void leave(const PointBatch& batch);
+  void answer(Waiting& batch);
   absl::Status evaluate_large(const PointBatch& batch);
-  absl::Status evaluate_small(const PointBatch& batch);
-  void run_next();
+  void dispatch();
+  Batches run_next(std::unique_lock<std::mutex>& lock);
   gpu::Urgency most_urgent() const;
   void wait_for_more(std::unique_lock<std::mutex>& lock);
-  std::vector<Waiting*> take_next();
+  Batches take_next();
   absl::Status run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn);
   absl::Status refusal() const;
   // run_, timed.
@@ -98,13 +109,15 @@ class EvaluationQueue {
   const Clock now_;
 
   mutable std::mutex mutex_;
-  std::list<Waiting*> waiting_;  // by arrival
+  Batches waiting_;  // by arrival
   std::uint64_t waiting_points_ = 0;
-  std::condition_variable more_came_;
-  bool is_led_ = false;  // a caller is at the next submission
+  std::condition_variable more_came_, left_over_;
+  bool is_led_ = false;  // a thread is at the next submission
+  bool is_over_ = false;
   std::uint64_t picks_ = 0;
   std::uint64_t requests_ = 0, points_ = 0;  // admitted and not yet answered
   double seconds_per_point_ = 0;             // of late
+  std::thread dispatcher_;                   // last: it uses the others
 };
 
 }  // namespace isofield::engine

@@ -108,6 +108,11 @@ absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& re
   return lattice;
 }
 
+void set_points(engine::PointBatch& batch, const PointArray& points, v1::EvaluateResponse& response) {
+  batch.xyz = points.xyz();
+  batch.out = make_float_tensor({points.size(), engine::components(batch.quantity)}, *response.mutable_result());
+}
+
 // Counted while it lives.
 class OpenStream {
  public:
@@ -125,24 +130,28 @@ class OpenStream {
 
 }  // namespace
 
-absl::Status FieldService::evaluate(engine::PointBatch batch, const v1::Tensor& points,
-                                    v1::EvaluateResponse& response) {
+absl::Status FieldService::evaluate_now(engine::PointBatch batch, const v1::Tensor& points,
+                                        v1::EvaluateResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray array, PointArray::read(points, limits_.max_points_per_message));
-  batch.xyz = array.xyz();
-  batch.out = make_float_tensor({array.size(), engine::components(batch.quantity)}, *response.mutable_result());
+  set_points(batch, array, response);
   return engine_.evaluate(batch);
 }
 
-grpc::Status FieldService::Evaluate(grpc::ServerContext* context, const v1::EvaluateRequest* request,
-                                    v1::EvaluateResponse* response) {
+void FieldService::evaluate(grpc::ServerContext& context, const v1::EvaluateRequest& request,
+                            v1::EvaluateResponse& response, std::function<void(const grpc::Status&)> done) {
   absl::StatusOr<engine::PointBatch> batch =
-      read_batch(*context, scenes_, request->scene(), request->quantity(), request->priority());
-  if (!batch.ok()) return to_grpc(batch.status());
-  const absl::Status status = evaluate(*std::move(batch), request->points(), *response);
-  if (const auto ms = engine::retry_after_ms(status)) {
-    context->AddTrailingMetadata("grpc-retry-pushback-ms", absl::StrCat(*ms));
-  }
-  return to_grpc(status);
+      read_batch(context, scenes_, request.scene(), request.quantity(), request.priority());
+  if (!batch.ok()) return done(to_grpc(batch.status()));
+  absl::StatusOr<PointArray> read = PointArray::read(request.points(), limits_.max_points_per_message);
+  if (!read.ok()) return done(to_grpc(read.status()));
+  const auto array = std::make_shared<const PointArray>(*std::move(read));
+  set_points(*batch, *array, response);
+  engine_.submit(*std::move(batch), [&context, array, done = std::move(done)](const absl::Status& status) {
+    if (const auto ms = engine::retry_after_ms(status)) {
+      context.AddTrailingMetadata("grpc-retry-pushback-ms", absl::StrCat(*ms));
+    }
+    done(to_grpc(status));
+  });
 }
 
 grpc::Status FieldService::EvaluateStream(
@@ -173,7 +182,7 @@ grpc::Status FieldService::EvaluateStream(
     is_first = false;
     if (!request.has_points()) continue;
     v1::EvaluateResponse response;
-    if (const absl::Status s = evaluate(*batch, request.points(), response); !s.ok()) {
+    if (const absl::Status s = evaluate_now(*batch, request.points(), response); !s.ok()) {
       return to_grpc(absl::Status(s.code(), absl::StrCat("after ", before, " points: ", s.message())));
     }
     before += response.result().shape(0);
