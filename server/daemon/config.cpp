@@ -44,7 +44,8 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   app.add_option("--drain-seconds", c.drain_seconds, "How long running requests may take to finish on SIGTERM")
       ->envname("ISOFIELD_DRAIN_SECONDS")
       ->check(CLI::Range(0, 3600));
-  app.add_option("--max-threads", c.max_threads, "Threads, and so requests and open streams, at once")
+  app.add_option("--max-threads", c.max_threads,
+                 "Threads, and so requests and open streams, at once; Evaluate has an eighth as many of its own")
       ->envname("ISOFIELD_MAX_THREADS")
       ->check(CLI::Range(4, 65536));
   app.add_option("--max-nodes", c.limits.scene.max_nodes, "Nodes of a scene")->envname("ISOFIELD_MAX_NODES");

@@ -2,6 +2,7 @@
 
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
+#include <absl/synchronization/mutex.h>
 #include <grpc/grpc.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
@@ -106,6 +107,8 @@ absl::StatusOr<Running> start_server(const Config& config, const std::vector<grp
 }  // namespace
 
 absl::Status run(const Config& config, const std::string& version) {
+  // On in Debian's build of Abseil, and in every lock of gRPC's: 3 % of a small call.
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   const sigset_t signals = stop_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   start_logging(config);

@@ -13,6 +13,9 @@
 namespace isofield::engine {
 namespace {
 
+// What a submission still counts after each further one.
+constexpr double kMemory = 0.9;
+
 constexpr char kRetryPayload[] = "isofield/retry-after-ms";
 
 std::size_t points_of(const PointBatch& batch) {
@@ -110,7 +113,8 @@ absl::Status EvaluationQueue::admit(const PointBatch& batch) {
 
 absl::Status EvaluationQueue::refusal() const {
   // When what is there is done, as far as one can tell.
-  const double ms = std::clamp(std::ceil(1e3 * seconds_per_point_ * static_cast<double>(points_)), 1.0, 10'000.0);
+  const double seconds = recent_seconds_ / std::max(recent_points_, 1.0) * static_cast<double>(points_);
+  const double ms = std::clamp(std::ceil(1e3 * seconds), 1.0, 10'000.0);
   absl::Status status = absl::ResourceExhaustedError(absl::StrCat(
       requests_, " requests with ", points_, " points wait or run; ", limits_.max_requests, " with ",
       limits_.max_points, " are admitted (--max-queued-requests, --max-queued-points): try again in ", ms, " ms"));
@@ -219,9 +223,10 @@ absl::Status EvaluationQueue::run(const PointBatch& first, std::span<const float
   const gpu::Deadline start = now_();
   const absl::Status status =
       run_(*first.scene, xyz, first.quantity, out, cancelled, {urgency_of(first), std::move(turn)});
-  const double seconds = std::chrono::duration<double>(now_() - start).count() / static_cast<double>(xyz.size() / 3);
+  const double seconds = std::chrono::duration<double>(now_() - start).count();
   const std::lock_guard lock(mutex_);
-  seconds_per_point_ += 0.1 * (seconds - seconds_per_point_);
+  recent_seconds_ = kMemory * recent_seconds_ + seconds;
+  recent_points_ = kMemory * recent_points_ + static_cast<double>(xyz.size() / 3);
   return status;
 }
 

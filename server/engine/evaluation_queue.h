@@ -116,7 +116,7 @@ class EvaluationQueue {
   bool is_over_ = false;
   std::uint64_t picks_ = 0;
   std::uint64_t requests_ = 0, points_ = 0;  // admitted and not yet answered
-  double seconds_per_point_ = 0;             // of late
+  double recent_seconds_ = 0, recent_points_ = 0;  // of submissions, the older the less
   std::thread dispatcher_;                   // last: it uses the others
 };
 

@@ -5,6 +5,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -12,11 +13,13 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "blobtree/distance.h"
 #include "isofield/v1/field_service.grpc.pb.h"
 #include "isofield/v1/info_service.grpc.pb.h"
+#include "isofield/v1/mesh_service.grpc.pb.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
@@ -89,6 +92,8 @@ class EvaluateCaller final : public Caller {
     call_ = stub_->AsyncEvaluate(context_.get(), request_, &queue);
     call_->Finish(&response_, &status, this);
   }
+
+  const v1::EvaluateRequest& request() const { return request_; }
 
  private:
   std::unique_ptr<v1::FieldService::Stub> stub_;
@@ -168,18 +173,55 @@ Row measure(const std::vector<std::unique_ptr<Caller>>& callers, bool in_turn, d
   return row;
 }
 
+void print(const std::string& name, const char* how, const Row& row, int points) {
+  std::printf("%-32s %-14s %9.0f %12.0f %9.0f %9.0f %9.0f %9.2f\n", name.c_str(), how, row.calls_per_second,
+              row.calls_per_second * points, row.mean, row.p50, row.p99, row.p99 / row.mean);
+}
+
 void compare(const std::string& name, const std::function<std::unique_ptr<Caller>(int client)>& make, int points,
              double seconds) {
   std::vector<std::unique_ptr<Caller>> callers;
   for (int i = 0; i < kClients; ++i) callers.push_back(make(i));
-  const auto print = [&](const char* how, const Row& row) {
-    std::printf("%-28s %-14s %9.0f %12.0f %9.0f %9.0f %9.0f %9.2f\n", name.c_str(), how, row.calls_per_second,
-                row.calls_per_second * points, row.mean, row.p50, row.p99, row.p99 / row.mean);
-  };
   const Row one = measure(callers, true, seconds), all = measure(callers, false, seconds);
-  print("one at a time", one);
-  print("64 at once", all);
-  std::printf("%-28s %-14s %9.2f\n\n", name.c_str(), "ratio", all.calls_per_second / one.calls_per_second);
+  print(name, "one at a time", one, points);
+  print(name, "64 at once", all, points);
+  std::printf("%-32s %-14s %9.2f\n\n", name.c_str(), "ratio", all.calls_per_second / one.calls_per_second);
+}
+
+// A small call at a time while another client has `work` done over and over.
+void beside(const std::string& name, const std::string& address, double seconds,
+            const std::function<void(grpc::ClientContext&)>& work) {
+  std::vector<std::unique_ptr<Caller>> callers;
+  callers.push_back(std::make_unique<EvaluateCaller>(address, 0, kPoints));
+  std::atomic<bool> is_over = false;
+  std::thread other([&] {
+    while (!is_over) {
+      grpc::ClientContext context;
+      work(context);
+    }
+  });
+  const Row row = measure(callers, true, seconds);
+  is_over = true;
+  other.join();
+  print(name, "one at a time", row, kPoints);
+}
+
+void small_beside_large(const std::string& address, double seconds) {
+  const auto fields = v1::FieldService::NewStub(connect(address));
+  const auto meshes = v1::MeshService::NewStub(connect(address));
+  const EvaluateCaller large(address, 1, 1 << 20);
+  v1::EvaluateResponse response;
+  beside("64 points beside 1 M points", address, seconds,
+         [&](grpc::ClientContext& context) { check(fields->Evaluate(&context, large.request(), &response)); });
+  v1::MeshRequest request;
+  request.mutable_scene()->set_name("bench");
+  request.set_cell_size(0.008);
+  beside("64 points beside meshes", address, seconds, [&](grpc::ClientContext& context) {
+    const auto stream = meshes->Mesh(&context, request);
+    v1::MeshResponse part;
+    while (stream->Read(&part)) continue;
+    check(stream->Finish());
+  });
 }
 
 }  // namespace
@@ -200,7 +242,7 @@ int main(int argc, char** argv) {
   grpc::ClientContext context;
   v1::PutSceneResponse stored;
   check(scenes->PutScene(&context, put, &stored));
-  std::printf("%-28s %-14s %9s %12s %9s %9s %9s %9s\n", "request", "", "calls/s", "points/s", "mean us", "p50 us",
+  std::printf("%-32s %-14s %9s %12s %9s %9s %9s %9s\n", "request", "", "calls/s", "points/s", "mean us", "p50 us",
               "p99 us", "p99/mean");
   compare(
       "GetInfo", [&](int) { return std::make_unique<InfoCaller>(address); }, 0, seconds);
@@ -209,4 +251,5 @@ int main(int argc, char** argv) {
   compare(
       "Evaluate, 64 points", [&](int i) { return std::make_unique<EvaluateCaller>(address, i, kPoints); }, kPoints,
       seconds);
+  small_beside_large(address, seconds);
 }
