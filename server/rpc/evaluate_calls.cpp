@@ -8,9 +8,17 @@ namespace isofield::rpc {
 class EvaluateCalls::Call {
  public:
   explicit Call(EvaluateCalls& calls) : calls_(calls), responder_(&context_) {
+    {
+      const std::lock_guard lock(calls_.mutex_);
+      ++calls_.calls_;
+    }
     context_.AsyncNotifyWhenDone(&ended_);
     calls_.service_.RequestEvaluate(&context_, &request_, &responder_, calls_.queue_.get(), calls_.queue_.get(),
                                     &came_);
+  }
+  ~Call() {
+    const std::lock_guard lock(calls_.mutex_);
+    if (--calls_.calls_ == 0) calls_.none_left_.notify_one();
   }
 
  private:
@@ -54,6 +62,11 @@ void EvaluateCalls::serve() {
 
 void EvaluateCalls::stop() {
   if (threads_.empty()) return;
+  {
+    // For the server, a cancelled call has ended; it is answered into the queue all the same.
+    std::unique_lock lock(mutex_);
+    none_left_.wait(lock, [&] { return calls_ == 0; });
+  }
   queue_->Shutdown();
   for (std::thread& t : threads_) t.join();
   threads_.clear();

@@ -3,7 +3,9 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -38,6 +40,9 @@ class EvaluateCalls {
   FieldService& service_;
   std::unique_ptr<grpc::ServerCompletionQueue> queue_;
   std::vector<std::thread> threads_;
+  std::mutex mutex_;
+  std::size_t calls_ = 0;  // that there are, the one wished for among them
+  std::condition_variable none_left_;
 };
 
 }  // namespace isofield::rpc
