@@ -26,6 +26,7 @@ std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv
 
 ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   Config c;
+  int delay_us = 0;
   CLI::App app("isofieldd: keeps implicit surfaces on a GPU and answers fields and meshes over gRPC.", "isofieldd");
   app.option_defaults()->always_capture_default()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.set_version_flag("--version", "isofieldd " + version);
@@ -43,7 +44,8 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   app.add_option("--drain-seconds", c.drain_seconds, "How long running requests may take to finish on SIGTERM")
       ->envname("ISOFIELD_DRAIN_SECONDS")
       ->check(CLI::Range(0, 3600));
-  app.add_option("--max-threads", c.max_threads, "Threads, and so requests and open streams, at once")
+  app.add_option("--max-threads", c.max_threads,
+                 "Threads, and so requests and open streams, at once; Evaluate has an eighth as many of its own")
       ->envname("ISOFIELD_MAX_THREADS")
       ->check(CLI::Range(4, 65536));
   app.add_option("--max-nodes", c.limits.scene.max_nodes, "Nodes of a scene")->envname("ISOFIELD_MAX_NODES");
@@ -63,12 +65,23 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   app.add_option("--max-mesh-cells", c.limits.max_mesh_cells, "Cells that a mesh request may look at")
       ->envname("ISOFIELD_MAX_MESH_CELLS")
       ->check(CLI::Range(std::uint64_t{64}, std::uint64_t{1} << 30));
+  app.add_option("--max-queued-requests", c.limits.queue.max_requests, "Evaluate calls that wait or run")
+      ->envname("ISOFIELD_MAX_QUEUED_REQUESTS")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 20));
+  app.add_option("--max-queued-points", c.limits.queue.max_points, "Points of Evaluate calls that wait or run")
+      ->envname("ISOFIELD_MAX_QUEUED_POINTS")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32));
+  app.add_option("--queue-delay-us", delay_us,
+                 "Microseconds that a small Evaluate call may be held back for others to join it")
+      ->envname("ISOFIELD_QUEUE_DELAY_US")
+      ->check(CLI::Range(0, 1'000'000));
   try {
     app.parse(arguments_of(app, argc, argv));
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return {std::nullopt, status == 0 ? 0 : 2};
   }
+  c.limits.queue.delay = std::chrono::microseconds(delay_us);
   c.limits.max_streams = c.max_threads * 3 / 4;
   return {c, 0};
 }

@@ -7,19 +7,26 @@
 
 namespace isofield::engine {
 
-Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits)
+Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue)
     : device_(std::move(device)),
       limits_(limits),
       kernels_(*device_),
       volumes_(*device_, kernels_),
       fields_(*device_, kernels_),
+      queue_(
+          device_->turns(),
+          [this](const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                 const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
+            return fields_.evaluate(scene, xyz, quantity, out, cancelled, std::move(submission));
+          },
+          queue),
       mesher_(*device_, kernels_),
       operators_(*device_, kernels_, volumes_) {}
 
 absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions& options,
-                                                       const blobtree::SceneLimits& limits) {
+                                                       const blobtree::SceneLimits& limits, const QueueLimits& queue) {
   ISOFIELD_ASSIGN_OR_RETURN(auto device, gpu::Device::create(options));
-  return std::unique_ptr<Engine>(new Engine(std::move(device), limits));
+  return std::unique_ptr<Engine>(new Engine(std::move(device), limits, queue));
 }
 
 absl::StatusOr<SceneLease> Engine::make_resident(const v1::Scene& scene, const blobtree::OperatorTable& operators) {
@@ -59,6 +66,17 @@ void Engine::drop(std::uint64_t version) {
   if (it == resident_.end()) return;
   last = std::move(it->second);
   resident_.erase(it);
+}
+
+absl::Status Engine::evaluate(const PointBatch& batch) {
+  // A kernel is compiled here, where nobody waits for it who does not need it.
+  ISOFIELD_RETURN_IF_ERROR(fields_.prepare(*batch.scene, batch.quantity));
+  return queue_.evaluate(batch);
+}
+
+void Engine::submit(PointBatch batch, EvaluationQueue::Done done) {
+  if (const absl::Status s = fields_.prepare(*batch.scene, batch.quantity); !s.ok()) return done(s);
+  queue_.submit(std::move(batch), std::move(done));
 }
 
 Engine::Residency Engine::residency() const {

@@ -10,6 +10,7 @@
 
 #include "blobtree/operator_table.h"
 #include "blobtree/scene.h"
+#include "engine/evaluation_queue.h"
 #include "engine/field_evaluator.h"
 #include "engine/kernel_cache.h"
 #include "engine/mesher.h"
@@ -24,7 +25,8 @@ namespace isofield::engine {
 class Engine {
  public:
   static absl::StatusOr<std::unique_ptr<Engine>> create(const gpu::DeviceOptions& options,
-                                                        const blobtree::SceneLimits& limits);
+                                                        const blobtree::SceneLimits& limits,
+                                                        const QueueLimits& queue = {});
 
   // Validates, compiles and uploads. `operators`: those that custom nodes name. INVALID_ARGUMENT as stated in
   // scene.proto.
@@ -48,19 +50,24 @@ class Engine {
   Residency residency() const;
   VolumeCache& volumes() { return volumes_; }
 
+  // Beside others' requests; errors as of EvaluationQueue.
+  absl::Status evaluate(const PointBatch& batch);
+  void submit(PointBatch batch, EvaluationQueue::Done done);
+
   gpu::Device& device() { return *device_; }
   FieldEvaluator& fields() { return fields_; }
   Mesher& mesher() { return mesher_; }
   OperatorEvaluator& operators() { return operators_; }
 
  private:
-  Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits);
+  Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue);
 
   std::unique_ptr<gpu::Device> device_;
   blobtree::SceneLimits limits_;
   KernelCache kernels_;
   VolumeCache volumes_;
   FieldEvaluator fields_;
+  EvaluationQueue queue_;
   Mesher mesher_;
   OperatorEvaluator operators_;
   mutable std::mutex mutex_;

@@ -9,6 +9,7 @@
 #include "blobtree/lattice.h"
 #include "engine/kernel_cache.h"
 #include "engine/resident_scene.h"
+#include "gpu/turns.h"
 
 namespace isofield::engine {
 
@@ -25,9 +26,17 @@ class FieldEvaluator {
   // Asked between submissions; true ends the work with CANCELLED.
   using Cancelled = std::function<bool()>;
 
+  struct Submission {
+    gpu::Urgency urgency;
+    gpu::Turns::Turn turn;  // one that is held already
+  };
+
+  // Compiles what the others would compile on first use.
+  absl::Status prepare(const ResidentScene& scene, Quantity quantity);
+
   // xyz: 3 finite numbers a point; out: components(quantity) numbers a point.
   absl::Status evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
-                        const Cancelled& cancelled = {});
+                        const Cancelled& cancelled = {}, Submission submission = {});
 
   // The lattice's points with k from first_layer (a multiple of kBrickCells) to the end of `out`, which holds whole
   // layers, x fastest. lattice.cells counts the points.
@@ -35,6 +44,8 @@ class FieldEvaluator {
                                Quantity quantity, std::span<float> out, const Cancelled& cancelled = {});
 
  private:
+  absl::StatusOr<const gpu::Pipeline*> points_kernel(const ResidentScene& scene, Quantity quantity);
+
   gpu::Device& device_;
   KernelCache& kernels_;
 };

@@ -4,10 +4,10 @@ namespace isofield::engine {
 
 using gpu::Buffer;
 
-absl::StatusOr<Session> Session::begin(gpu::Device& device) {
+absl::StatusOr<Session> Session::begin(gpu::Device& device, const gpu::Urgency& urgency, gpu::Turns::Turn turn) {
   absl::StatusOr<gpu::Commands> commands = gpu::Commands::begin(device);
   if (!commands.ok()) return commands.status();
-  return Session(device, *std::move(commands));
+  return Session(device, urgency, std::move(turn), *std::move(commands));
 }
 
 absl::StatusOr<Buffer> Session::scratch(std::size_t bytes) {
@@ -45,9 +45,16 @@ absl::Status Session::download_bytes(const Buffer& buffer, std::span<std::byte> 
   return absl::OkStatus();
 }
 
+absl::Status Session::submit_in_turn() {
+  if (!turn_) turn_ = device_->turns().take(urgency_);
+  absl::Status status = commands_.submit();
+  if (status.ok()) status = commands_.wait();
+  turn_ = {};
+  return status;
+}
+
 absl::Status Session::flush() {
-  if (absl::Status s = commands_.submit(); !s.ok()) return s;
-  if (absl::Status s = commands_.wait(); !s.ok()) return s;
+  if (absl::Status s = submit_in_turn(); !s.ok()) return s;
   absl::StatusOr<gpu::Commands> commands = gpu::Commands::begin(*device_);
   if (!commands.ok()) return commands.status();
   commands_ = *std::move(commands);
@@ -55,8 +62,7 @@ absl::Status Session::flush() {
 }
 
 absl::Status Session::run() {
-  if (absl::Status s = commands_.submit(); !s.ok()) return s;
-  if (absl::Status s = commands_.wait(); !s.ok()) return s;
+  if (absl::Status s = submit_in_turn(); !s.ok()) return s;
   for (const Download& d : downloads_) std::memcpy(d.to.data(), d.from, d.to.size());
   return absl::OkStatus();
 }

@@ -16,10 +16,13 @@
 
 namespace isofield::engine {
 
-// One thread. Where the device's memory is the host's, nothing is staged.
+// One thread. Where the device's memory is the host's, nothing is staged. What it submits takes its turn at the device
+// until it is done.
 class Session {
  public:
-  static absl::StatusOr<Session> begin(gpu::Device& device);
+  // `turn`: one that is held already, for the first submission.
+  static absl::StatusOr<Session> begin(gpu::Device& device, const gpu::Urgency& urgency = {},
+                                       gpu::Turns::Turn turn = {});
 
   gpu::Commands& commands() { return commands_; }
 
@@ -45,11 +48,15 @@ class Session {
     const std::byte* from;
     std::span<std::byte> to;
   };
-  Session(gpu::Device& device, gpu::Commands commands) : device_(&device), commands_(std::move(commands)) {}
+  Session(gpu::Device& device, const gpu::Urgency& urgency, gpu::Turns::Turn turn, gpu::Commands commands)
+      : device_(&device), urgency_(urgency), turn_(std::move(turn)), commands_(std::move(commands)) {}
+  absl::Status submit_in_turn();
   absl::StatusOr<gpu::Buffer> upload_bytes(std::span<const std::byte> data);
   absl::Status download_bytes(const gpu::Buffer& buffer, std::span<std::byte> out);
 
   gpu::Device* device_;
+  gpu::Urgency urgency_;
+  gpu::Turns::Turn turn_;
   std::deque<gpu::Buffer> staging_;  // outlives the commands
   gpu::Commands commands_;
   std::vector<Download> downloads_;

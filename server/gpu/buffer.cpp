@@ -1,5 +1,7 @@
 #include "gpu/buffer.h"
 
+#include <bit>
+
 #include "gpu/buffer_impl.h"
 
 namespace isofield::gpu {
@@ -39,13 +41,37 @@ bool worth_mapping(const Device::Impl& device, Flags flags, Buffer::Use use) {
   return !device.always_stage && (type == "cpu" || type == "integrated");
 }
 
+// Memory and all of a buffer of `bytes`.
+absl::StatusOr<std::unique_ptr<Buffer::Impl>> make(Device::Impl& d, std::size_t bytes, Buffer::Use use) {
+  auto impl = std::make_unique<Buffer::Impl>(d);
+  impl->buffer.emplace(
+      *d.device,
+      vk::BufferCreateInfo({}, bytes,
+                           vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformBuffer |
+                               vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst));
+  const vk::MemoryRequirements needs = impl->buffer->getMemoryRequirements();
+  const auto type = memory_type(d.memory, needs.memoryTypeBits, use);
+  if (!type) return absl::InternalError("Vulkan offers no memory for a storage buffer");
+  impl->memory.emplace(*d.device, vk::MemoryAllocateInfo(needs.size, *type));
+  impl->buffer->bindMemory(**impl->memory, 0);
+  if (worth_mapping(d, d.memory.memoryTypes[*type].propertyFlags, use)) {
+    impl->mapped = static_cast<std::byte*>(impl->memory->mapMemory(0, VK_WHOLE_SIZE));
+  }
+  return impl;
+}
+
 }  // namespace
 
 Buffer::Buffer() = default;
-Buffer::Buffer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Buffer::Buffer(Buffer&&) noexcept = default;
 Buffer& Buffer::operator=(Buffer&&) noexcept = default;
 Buffer::~Buffer() = default;
+
+void Buffer::Release::operator()(Impl* impl) const {
+  std::unique_ptr<Impl> owned(impl);
+  impl->device.allocated_bytes -= impl->size;
+  if (impl->spares) impl->spares->give(std::move(owned));
+}
 
 absl::StatusOr<Buffer> Buffer::create(Device& device, std::size_t bytes, Use use) {
   Device::Impl& d = device.impl();
@@ -54,21 +80,19 @@ absl::StatusOr<Buffer> Buffer::create(Device& device, std::size_t bytes, Use use
     return absl::ResourceExhaustedError(
         absl::StrCat("a buffer of ", size, " bytes; the device binds at most ", d.description.max_buffer_bytes));
   }
+  const auto bits = std::max<std::uint32_t>(std::bit_width(size - 1), kLeastSpareBits);
+  Spares<Impl>* const spares =
+      bits <= kMostSpareBits ? &d.spare_buffers[static_cast<std::size_t>(use)][bits - kLeastSpareBits] : nullptr;
   try {
-    auto impl = std::make_unique<Impl>(d, size);
-    impl->buffer.emplace(
-        *d.device,
-        vk::BufferCreateInfo({}, size,
-                             vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformBuffer |
-                                 vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst));
-    const vk::MemoryRequirements needs = impl->buffer->getMemoryRequirements();
-    const auto type = memory_type(d.memory, needs.memoryTypeBits, use);
-    if (!type) return absl::InternalError("Vulkan offers no memory for a storage buffer");
-    impl->memory.emplace(*d.device, vk::MemoryAllocateInfo(needs.size, *type));
-    impl->buffer->bindMemory(**impl->memory, 0);
-    if (worth_mapping(d, d.memory.memoryTypes[*type].propertyFlags, use)) {
-      impl->mapped = static_cast<std::byte*>(impl->memory->mapMemory(0, VK_WHOLE_SIZE));
+    std::unique_ptr<Impl> impl = spares ? spares->take() : nullptr;
+    if (!impl) {
+      absl::StatusOr<std::unique_ptr<Impl>> made = make(d, spares ? std::size_t{1} << bits : size, use);
+      if (!made.ok()) return made.status();
+      impl = *std::move(made);
     }
+    impl->spares = spares;
+    impl->size = size;
+    d.allocated_bytes += size;
     return Buffer(std::move(impl));
   } catch (const vk::SystemError& error) {
     return to_status(error, "allocating a buffer");

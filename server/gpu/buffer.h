@@ -35,8 +35,12 @@ class Buffer {
   const Impl& impl() const { return *impl_; }
 
  private:
-  explicit Buffer(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  // Leaves a small one to be used again.
+  struct Release {
+    void operator()(Impl* impl) const;
+  };
+  explicit Buffer(std::unique_ptr<Impl> impl) : impl_(impl.release()) {}
+  std::unique_ptr<Impl, Release> impl_;
 };
 
 }  // namespace isofield::gpu

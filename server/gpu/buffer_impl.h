@@ -7,11 +7,11 @@
 namespace isofield::gpu {
 
 struct Buffer::Impl {
-  Impl(Device::Impl& device, std::size_t size) : device(device), size(size) { device.allocated_bytes += size; }
-  ~Impl() { device.allocated_bytes -= size; }
+  explicit Impl(Device::Impl& device) : device(device) {}
 
   Device::Impl& device;
-  std::size_t size;
+  std::size_t size = 0;                    // of which the device counts that of buffers in use
+  Spares<Buffer::Impl>* spares = nullptr;  // where it goes after use; null: nowhere
   std::optional<vk::raii::Buffer> buffer;
   std::optional<vk::raii::DeviceMemory> memory;
   std::byte* mapped = nullptr;

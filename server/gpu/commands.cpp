@@ -4,7 +4,7 @@
 #include <array>
 
 #include "gpu/buffer_impl.h"
-#include "gpu/device_impl.h"
+#include "gpu/commands_impl.h"
 #include "gpu/pipeline_impl.h"
 
 namespace isofield::gpu {
@@ -14,47 +14,56 @@ constexpr std::uint32_t kSetsPerPool = 64;
 
 }  // namespace
 
-struct Commands::Impl {
-  explicit Impl(Device::Impl& d)
-      : device(d),
-        pool(*d.device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, d.queue_family)),
-        buffer(std::move(vk::raii::CommandBuffers(*d.device, {*pool, vk::CommandBufferLevel::ePrimary, 1}).front())),
-        fence(*d.device, vk::FenceCreateInfo()) {
-    buffer.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+Commands::Impl::Impl(Device::Impl& d)
+    : device(d),
+      pool(*d.device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, d.queue_family)),
+      buffer(std::move(vk::raii::CommandBuffers(*d.device, {*pool, vk::CommandBufferLevel::ePrimary, 1}).front())),
+      fence(*d.device, vk::FenceCreateInfo()) {}
+
+vk::DescriptorSet Commands::Impl::next_set() {
+  if (sets_left == 0) {
+    const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSetsPerPool * kBindings),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, kSetsPerPool * kUniformBindings)};
+    set_pools.emplace_back(*device.device, vk::DescriptorPoolCreateInfo({}, kSetsPerPool, sizes));
+    sets_left = kSetsPerPool;
   }
+  --sets_left;
+  // Freed with their pool.
+  return (*device.device).allocateDescriptorSets({*set_pools.back(), **device.set_layout}).front().release();
+}
 
-  vk::DescriptorSet next_set() {
-    if (sets_left == 0) {
-      const std::array sizes{
-          vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSetsPerPool * kBindings),
-          vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, kSetsPerPool * kUniformBindings)};
-      set_pools.emplace_back(*device.device, vk::DescriptorPoolCreateInfo({}, kSetsPerPool, sizes));
-      sets_left = kSetsPerPool;
-    }
-    --sets_left;
-    // Freed with their pool.
-    return (*device.device).allocateDescriptorSets({*set_pools.back(), **device.set_layout}).front().release();
-  }
+void Commands::Impl::reset() {
+  pool.reset();
+  if (is_spent) device.device->resetFences(*fence);
+  is_spent = false;
+  if (set_pools.empty()) return;
+  set_pools.erase(set_pools.begin() + 1, set_pools.end());
+  set_pools.front().reset();
+  sets_left = kSetsPerPool;
+}
 
-  Device::Impl& device;
-  vk::raii::CommandPool pool;
-  vk::raii::CommandBuffer buffer;
-  vk::raii::Fence fence;
-  std::vector<vk::raii::DescriptorPool> set_pools;
-  std::uint32_t sets_left = 0;
-  bool is_submitted = false;
-};
-
-Commands::Commands(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Commands::Commands(Commands&&) noexcept = default;
 Commands& Commands::operator=(Commands&&) noexcept = default;
-Commands::~Commands() {
-  if (impl_) wait().IgnoreError();
+Commands::~Commands() = default;
+
+void Commands::Release::operator()(Impl* impl) const {
+  std::unique_ptr<Impl> owned(impl);
+  if (!owned->wait().ok()) return;
+  try {
+    owned->reset();
+    Device::Impl& device = owned->device;
+    device.spare_commands.give(std::move(owned));
+  } catch (const vk::SystemError&) {
+    // It is destroyed.
+  }
 }
 
 absl::StatusOr<Commands> Commands::begin(Device& device) {
   try {
-    return Commands(std::make_unique<Impl>(device.impl()));
+    std::unique_ptr<Impl> impl = device.impl().spare_commands.take();
+    if (!impl) impl = std::make_unique<Impl>(device.impl());
+    impl->buffer.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    return Commands(std::move(impl));
   } catch (const vk::SystemError& error) {
     return to_status(error, "beginning commands");
   }
@@ -125,7 +134,7 @@ absl::Status Commands::submit() {
     const vk::CommandBuffer buffer = *impl_->buffer;
     const std::lock_guard lock(impl_->device.queue_mutex);
     impl_->device.queue->submit(vk::SubmitInfo({}, {}, buffer), *impl_->fence);
-    impl_->is_submitted = true;
+    impl_->is_submitted = impl_->is_spent = true;
     return absl::OkStatus();
   } catch (const vk::SystemError& error) {
     return to_status(error, "submitting commands");
@@ -133,10 +142,14 @@ absl::Status Commands::submit() {
 }
 
 absl::Status Commands::wait() {
-  if (!impl_->is_submitted) return absl::OkStatus();
+  return impl_->wait();
+}
+
+absl::Status Commands::Impl::wait() {
+  if (!is_submitted) return absl::OkStatus();
   try {
-    const vk::Result result = impl_->device.device->waitForFences(*impl_->fence, true, ~std::uint64_t{0});
-    impl_->is_submitted = false;
+    const vk::Result result = device.device->waitForFences(*fence, true, ~std::uint64_t{0});
+    is_submitted = false;
     return result == vk::Result::eSuccess ? absl::OkStatus()
                                           : absl::InternalError("Vulkan: waiting for a fence failed");
   } catch (const vk::SystemError& error) {

@@ -50,8 +50,12 @@ class Commands {
   struct Impl;
 
  private:
-  explicit Commands(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  // Waits, and leaves it to be used again.
+  struct Release {
+    void operator()(Impl* impl) const;
+  };
+  explicit Commands(std::unique_ptr<Impl> impl) : impl_(impl.release()) {}
+  std::unique_ptr<Impl, Release> impl_;
 };
 
 // Bindings from here on are uniform buffers, of which kernels see the first kUniformBytes: more than Vulkan's least

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "gpu/buffer_impl.h"
+#include "gpu/commands_impl.h"
 #include "gpu/device_impl.h"
 #include "gpu/device_selection.h"
 
@@ -148,6 +150,8 @@ void create_device(Device::Impl& impl) {
 
 }  // namespace
 
+Device::Impl::Impl() = default;
+Device::Impl::~Impl() = default;
 Device::Device(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Device::~Device() = default;
 
@@ -175,6 +179,9 @@ std::uint64_t Device::validation_messages() const {
 }
 std::uint64_t Device::allocated_bytes() const {
   return impl_->allocated_bytes;
+}
+Turns& Device::turns() {
+  return impl_->turns;
 }
 
 }  // namespace isofield::gpu

@@ -9,6 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "gpu/turns.h"
+
 namespace isofield::gpu {
 
 struct DeviceOptions {
@@ -39,8 +41,11 @@ class Device {
   const DeviceDescription& description() const;
   // Validation messages so far.
   std::uint64_t validation_messages() const;
-  // Bytes allocated on the device now.
+  // Bytes of buffers in use now. Some MiB more of small ones are kept to be used again.
   std::uint64_t allocated_bytes() const;
+
+  // Of its queue: what can take long, or is asked by many, submits in its turn.
+  Turns& turns();
 
   struct Impl;  // gpu/device_impl.h
   Impl& impl() { return *impl_; }

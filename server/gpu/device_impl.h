@@ -1,11 +1,15 @@
 // Private to this room: what a Device holds.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <mutex>
 #include <optional>
 
+#include "gpu/buffer.h"
+#include "gpu/commands.h"
 #include "gpu/device.h"
+#include "gpu/spares.h"
 #include "gpu/vulkan.h"
 
 namespace isofield::gpu {
@@ -16,7 +20,13 @@ inline constexpr std::uint32_t kBindings = 16;
 inline constexpr std::uint32_t kUniformBindings = 3;
 inline constexpr std::uint32_t kPushBytes = 128;
 
+// Small buffers are made in sizes of 2^n bytes and used again: from 2^kLeastSpareBits to 2^kMostSpareBits.
+inline constexpr std::uint32_t kLeastSpareBits = 8, kMostSpareBits = 18;
+
 struct Device::Impl {
+  Impl();
+  ~Impl();
+
   vk::raii::Context context;
   std::optional<vk::raii::Instance> instance;
   std::optional<vk::raii::DebugUtilsMessengerEXT> messenger;
@@ -24,6 +34,7 @@ struct Device::Impl {
   std::optional<vk::raii::Device> device;
   std::optional<vk::raii::Queue> queue;
   std::mutex queue_mutex;
+  Turns turns;
   std::uint32_t queue_family = 0;
   std::optional<vk::raii::DescriptorSetLayout> set_layout;
   std::optional<vk::raii::PipelineLayout> pipeline_layout;
@@ -34,6 +45,11 @@ struct Device::Impl {
   std::function<void(const std::string&)> on_validation_message;
   std::atomic<std::uint64_t> validation_messages{0};
   std::atomic<std::uint64_t> allocated_bytes{0};
+
+  // Last, and so gone before the device is.
+  std::array<std::array<Spares<Buffer::Impl>, kMostSpareBits - kLeastSpareBits + 1>, 3>
+      spare_buffers;  // by use and size
+  Spares<Commands::Impl> spare_commands;
 };
 
 }  // namespace isofield::gpu

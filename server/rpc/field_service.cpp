@@ -29,6 +29,34 @@ absl::StatusOr<engine::Quantity> read_quantity(v1::Quantity quantity) {
   }
 }
 
+absl::StatusOr<int> read_priority(v1::Priority priority) {
+  switch (priority) {
+    case v1::PRIORITY_LOW:
+      return -1;
+    case v1::PRIORITY_UNSPECIFIED:
+    case v1::PRIORITY_NORMAL:
+      return 0;
+    case v1::PRIORITY_HIGH:
+      return 1;
+    default:
+      return absl::InvalidArgumentError(absl::StrCat("priority = ", static_cast<int>(priority),
+                                                     ": expected PRIORITY_LOW, PRIORITY_NORMAL or PRIORITY_HIGH"));
+  }
+}
+
+// All but the points of a call, or of a stream of them.
+absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context, const SceneSource& scenes,
+                                              const v1::SceneRef& scene, v1::Quantity quantity, v1::Priority priority) {
+  engine::PointBatch batch;
+  ISOFIELD_ASSIGN_OR_RETURN(batch.quantity, read_quantity(quantity));
+  ISOFIELD_ASSIGN_OR_RETURN(batch.priority, read_priority(priority));
+  ISOFIELD_ASSIGN_OR_RETURN(LeasedScene leased, scenes.lease(scene));
+  batch.scene = std::move(leased.scene);
+  batch.deadline = context.deadline();
+  batch.cancelled = [&context] { return context.IsCancelled(); };
+  return batch;
+}
+
 absl::StatusOr<blobtree::dvec3> read_vector(const char* name, const google::protobuf::RepeatedField<double>& v) {
   if (v.size() != 3) return absl::InvalidArgumentError(absl::StrCat(name, " holds ", v.size(), " numbers: expected 3"));
   for (int i = 0; i < 3; ++i) {
@@ -80,6 +108,11 @@ absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& re
   return lattice;
 }
 
+void set_points(engine::PointBatch& batch, const PointArray& points, v1::EvaluateResponse& response) {
+  batch.xyz = points.xyz();
+  batch.out = make_float_tensor({points.size(), engine::components(batch.quantity)}, *response.mutable_result());
+}
+
 // Counted while it lives.
 class OpenStream {
  public:
@@ -97,22 +130,28 @@ class OpenStream {
 
 }  // namespace
 
-absl::Status FieldService::evaluate(const grpc::ServerContext& context, const engine::ResidentScene& scene,
-                                    const v1::Tensor& points, engine::Quantity quantity,
-                                    v1::EvaluateResponse& response) {
+absl::Status FieldService::evaluate_now(engine::PointBatch batch, const v1::Tensor& points,
+                                        v1::EvaluateResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray array, PointArray::read(points, limits_.max_points_per_message));
-  const std::span<float> out =
-      make_float_tensor({array.size(), engine::components(quantity)}, *response.mutable_result());
-  return engine_.fields().evaluate(scene, array.xyz(), quantity, out, [&] { return context.IsCancelled(); });
+  set_points(batch, array, response);
+  return engine_.evaluate(batch);
 }
 
-grpc::Status FieldService::Evaluate(grpc::ServerContext* context, const v1::EvaluateRequest* request,
-                                    v1::EvaluateResponse* response) {
-  const absl::StatusOr<engine::Quantity> quantity = read_quantity(request->quantity());
-  if (!quantity.ok()) return to_grpc(quantity.status());
-  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
-  if (!leased.ok()) return to_grpc(leased.status());
-  return to_grpc(evaluate(*context, *leased->scene, request->points(), *quantity, *response));
+void FieldService::evaluate(grpc::ServerContext& context, const v1::EvaluateRequest& request,
+                            v1::EvaluateResponse& response, std::function<void(const grpc::Status&)> done) {
+  absl::StatusOr<engine::PointBatch> batch =
+      read_batch(context, scenes_, request.scene(), request.quantity(), request.priority());
+  if (!batch.ok()) return done(to_grpc(batch.status()));
+  absl::StatusOr<PointArray> read = PointArray::read(request.points(), limits_.max_points_per_message);
+  if (!read.ok()) return done(to_grpc(read.status()));
+  const auto array = std::make_shared<const PointArray>(*std::move(read));
+  set_points(*batch, *array, response);
+  engine_.submit(*std::move(batch), [&context, array, done = std::move(done)](const absl::Status& status) {
+    if (const auto ms = engine::retry_after_ms(status)) {
+      context.AddTrailingMetadata("grpc-retry-pushback-ms", absl::StrCat(*ms));
+    }
+    done(to_grpc(status));
+  });
 }
 
 grpc::Status FieldService::EvaluateStream(
@@ -128,20 +167,22 @@ grpc::Status FieldService::EvaluateStream(
   if (!stream->Read(&request)) {
     return {grpc::StatusCode::INVALID_ARGUMENT, "the stream is empty: expected a first message that states the scene"};
   }
-  const absl::StatusOr<engine::Quantity> quantity = read_quantity(request.quantity());
-  if (!quantity.ok()) return to_grpc(quantity.status());
-  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request.scene());
-  if (!leased.ok()) return to_grpc(leased.status());
+  absl::StatusOr<engine::PointBatch> batch =
+      read_batch(*context, scenes_, request.scene(), request.quantity(), request.priority());
+  if (!batch.ok()) return to_grpc(batch.status());
+  batch->is_admitted = true;  // one message of each open stream at a time
   std::uint64_t before = 0;
   bool is_first = true;
   do {
-    if (!is_first && (request.has_scene() || request.quantity() != v1::QUANTITY_UNSPECIFIED)) {
-      return {grpc::StatusCode::INVALID_ARGUMENT, "scene and quantity are stated in a stream's first message alone"};
+    if (!is_first && (request.has_scene() || request.quantity() != v1::QUANTITY_UNSPECIFIED ||
+                      request.priority() != v1::PRIORITY_UNSPECIFIED)) {
+      return {grpc::StatusCode::INVALID_ARGUMENT,
+              "scene, quantity and priority are stated in a stream's first message alone"};
     }
     is_first = false;
     if (!request.has_points()) continue;
     v1::EvaluateResponse response;
-    if (const absl::Status s = evaluate(*context, *leased->scene, request.points(), *quantity, response); !s.ok()) {
+    if (const absl::Status s = evaluate_now(*batch, request.points(), response); !s.ok()) {
       return to_grpc(absl::Status(s.code(), absl::StrCat("after ", before, " points: ", s.message())));
     }
     before += response.result().shape(0);

@@ -23,6 +23,8 @@ grpc::Status InfoService::GetInfo(grpc::ServerContext*, const v1::GetInfoRequest
   limits.set_max_points_per_message(limits_.max_points_per_message);
   limits.set_max_grid_points(limits_.max_grid_points);
   limits.set_max_mesh_cells(limits_.max_mesh_cells);
+  limits.set_max_queued_requests(limits_.queue.max_requests);
+  limits.set_max_queued_points(limits_.queue.max_points);
   limits.set_max_operators(limits_.max_operators);
   const engine::Engine::Residency residency = engine_.residency();
   response->set_resident_scenes(residency.scenes);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "blobtree/scene.h"
+#include "engine/evaluation_queue.h"
 
 namespace isofield::rpc {
 
@@ -17,6 +18,7 @@ struct Limits {
   std::uint64_t max_points_per_message = 1u << 20;
   std::uint64_t max_grid_points = 1ull << 32;
   std::uint64_t max_mesh_cells = 1u << 25;
+  engine::QueueLimits queue;
 };
 
 }  // namespace isofield::rpc

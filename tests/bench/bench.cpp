@@ -99,10 +99,10 @@ void mesh(benchmark::State& state, const v1::Scene& scene, double cell) {
   state.counters["primitives"] = static_cast<double>(lease->tape().leaves.size());
 }
 
-void points(benchmark::State& state, const v1::Scene& scene, Quantity quantity) {
+void points(benchmark::State& state, const v1::Scene& scene, Quantity quantity, std::size_t count = 1 << 20) {
   const engine::SceneLease lease = resident(scene);
   test_support::Random random(1);
-  std::vector<float> xyz(3 << 20);
+  std::vector<float> xyz(3 * count);
   for (float& x : xyz) x = static_cast<float>(random.number(-1, 1));
   std::vector<float> out(xyz.size() / 3 * components(quantity));
   (void)the_engine().fields().evaluate(*lease, xyz, quantity, out);
@@ -136,6 +136,9 @@ void register_all() {
         points(s, soft_spheres(count, join), Quantity::kValueAndGradient);
       });
     }
+    add("points/" + spheres + " sum/value and gradient, 64 points", [count](benchmark::State& s) {
+      points(s, soft_spheres(count, Join::kSum), Quantity::kValueAndGradient, 64);
+    });
     add("points/" + spheres + " sum/value",
         [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), Quantity::kValue); });
   }

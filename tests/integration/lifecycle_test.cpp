@@ -149,6 +149,9 @@ TEST(Lifecycle, HelpListsEveryOptionWithItsDefault) {
                   {"--max-points-per-message", "1048576"},
                   {"--max-grid-points", "4294967296"},
                   {"--max-mesh-cells", "33554432"},
+                  {"--max-queued-requests", "1024"},
+                  {"--max-queued-points", "8388608"},
+                  {"--queue-delay-us", "0"},
                   {"--config", ""},
                   {"--version", ""}};
   for (const auto& [option, value] : kOptions) {

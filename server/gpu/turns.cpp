@@ -1,0 +1,45 @@
+#include "gpu/turns.h"
+
+#include <algorithm>
+
+namespace isofield::gpu {
+
+bool is_more_urgent(const Urgency& a, const Urgency& b) {
+  if (a.is_short != b.is_short) return a.is_short;
+  if (a.priority != b.priority) return a.priority > b.priority;
+  return a.deadline < b.deadline;
+}
+
+Turns::Turn Turns::take(const Urgency& urgency) {
+  std::unique_lock lock(mutex_);
+  if (is_taken_) {
+    Waiter self{urgency};
+    waiters_.push_back(&self);
+    self.called.wait(lock, [&] { return self.is_next; });
+  }
+  is_taken_ = true;
+  return Turn(this);
+}
+
+std::size_t Turns::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return waiters_.size();
+}
+
+// Hands the turn over where one waits: it is never free in between.
+void Turns::release() {
+  const std::lock_guard lock(mutex_);
+  is_taken_ = !waiters_.empty();
+  if (!is_taken_) return;
+  auto next = waiters_.begin();
+  if (++picks_ % kPatience != 0) {
+    next = std::min_element(waiters_.begin(), waiters_.end(),
+                            [](const Waiter* a, const Waiter* b) { return is_more_urgent(a->urgency, b->urgency); });
+  }
+  Waiter& chosen = **next;
+  waiters_.erase(next);
+  chosen.is_next = true;
+  chosen.called.notify_one();
+}
+
+}  // namespace isofield::gpu

@@ -1,0 +1,67 @@
+// Who uses the device's queue next: one piece of work at a time, the most urgent first.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+
+namespace isofield::gpu {
+
+using Deadline = std::chrono::system_clock::time_point;
+
+// What is asked before what.
+struct Urgency {
+  // Work known to be short passes all other, whatever their priorities.
+  bool is_short = false;
+  int priority = 0;  // the higher first
+  Deadline deadline = Deadline::max();
+
+  bool operator==(const Urgency&) const = default;
+};
+// True where `a` goes before `b`; of equal ones the first to come.
+bool is_more_urgent(const Urgency& a, const Urgency& b);
+
+// Of kPatience picks, the last goes to the one that has waited longest, so that none waits for ever.
+inline constexpr std::uint64_t kPatience = 4;
+
+// Thread-safe. Must outlive its turns.
+class Turns {
+ public:
+  // Held until it is destroyed or assigned to; a default one is no turn.
+  class Turn {
+   public:
+    Turn() = default;
+    explicit operator bool() const { return turns_ != nullptr; }
+
+   private:
+    friend class Turns;
+    struct Release {
+      void operator()(Turns* turns) const { turns->release(); }
+    };
+    explicit Turn(Turns* turns) : turns_(turns) {}
+    std::unique_ptr<Turns, Release> turns_;
+  };
+
+  // Waits for it. A thread that holds one must not ask for another.
+  Turn take(const Urgency& urgency);
+  // Threads in take().
+  std::size_t waiting() const;
+
+ private:
+  struct Waiter {
+    Urgency urgency;
+    bool is_next = false;
+    std::condition_variable called;
+  };
+  void release();
+
+  mutable std::mutex mutex_;
+  std::list<Waiter*> waiters_;  // by arrival
+  bool is_taken_ = false;
+  std::uint64_t picks_ = 0;
+};
+
+}  // namespace isofield::gpu

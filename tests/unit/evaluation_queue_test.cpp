@@ -1,0 +1,267 @@
+// What joins, what goes first, and what is refused; on no device, and without time.
+#include "engine/evaluation_queue.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+namespace isofield::engine {
+namespace {
+
+constexpr gpu::Deadline kNow = gpu::Deadline() + std::chrono::hours(1);
+constexpr gpu::Deadline kSoon = kNow + std::chrono::hours(1), kLater = kNow + std::chrono::hours(2);
+
+// Never looked into.
+SceneLease scene_number(std::uintptr_t n) {
+  return {std::shared_ptr<const ResidentScene>(), reinterpret_cast<const ResidentScene*>(n * 64)};
+}
+
+// A queue before a device that another holds until release(). The field is the sum of a point's coordinates.
+class Queue : public testing::Test {
+ protected:
+  struct Submission {
+    const ResidentScene* scene;
+    std::vector<float> xyz;
+    Quantity quantity;
+    gpu::Urgency urgency;
+  };
+  struct Request {
+    PointBatch batch;
+    std::vector<float> xyz, out;
+    absl::Status status = absl::UnknownError("not answered");
+    std::thread thread;
+  };
+
+  explicit Queue(const QueueLimits& limits = {})
+      : held_(turns_.take({})),
+        queue_(
+            turns_,
+            [this](const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                   const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
+              return run(scene, xyz, quantity, out, cancelled, std::move(submission));
+            },
+            limits, [this] { return now_; }) {}
+  ~Queue() override { release(); }
+
+  absl::Status run(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                   const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
+    if (!submission.turn) submission.turn = turns_.take(submission.urgency);
+    if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
+    submissions_.push_back({&scene, {xyz.begin(), xyz.end()}, quantity, submission.urgency});
+    for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
+      out[i * components(quantity)] = xyz[3 * i] + xyz[3 * i + 1] + xyz[3 * i + 2];
+    }
+    return outcome_;
+  }
+
+  // Points of which each has the sum `value`.
+  Request& request(float value, std::size_t points = 1, PointBatch batch = {}) {
+    Request& r = *requests_.emplace_back(std::make_unique<Request>());
+    for (std::size_t i = 0; i < points; ++i) r.xyz.insert(r.xyz.end(), {value, 0, 0});
+    r.out.resize(points * components(batch.quantity));
+    if (!batch.scene) batch.scene = scene_number(1);
+    r.batch = std::move(batch);
+    r.batch.xyz = r.xyz;
+    r.batch.out = r.out;
+    return r;
+  }
+  // Sends it, and returns when it waits.
+  Request& wait_with(Request& r) {
+    const std::size_t before = queue_.waiting() + turns_.waiting();
+    r.thread = std::thread([this, &r] { r.status = queue_.evaluate(r.batch); });
+    // The first small one waits in the queue, and its caller for the turn.
+    while (queue_.waiting() + turns_.waiting() <= before) std::this_thread::yield();
+    while (queue_.waiting() > 0 && turns_.waiting() == 0) std::this_thread::yield();
+    return r;
+  }
+  void release() {
+    held_ = {};
+    for (auto& r : requests_) {
+      if (r->thread.joinable()) r->thread.join();
+    }
+  }
+  // The first coordinates of a submission's points.
+  std::vector<float> values(std::size_t submission) const {
+    std::vector<float> all;
+    for (std::size_t i = 0; i < submissions_.at(submission).xyz.size(); i += 3) {
+      all.push_back(submissions_[submission].xyz[i]);
+    }
+    return all;
+  }
+
+  gpu::Deadline now_ = kNow;
+  gpu::Turns turns_;
+  gpu::Turns::Turn held_;
+  absl::Status outcome_;
+  std::vector<Submission> submissions_;  // under the turn
+  std::vector<std::unique_ptr<Request>> requests_;
+  EvaluationQueue queue_;
+};
+
+using Values = std::vector<float>;
+
+TEST_F(Queue, ALoneBatchIsRunByItsCaller) {
+  held_ = {};
+  Request& r = request(5, 3);
+  r.status = queue_.evaluate(r.batch);
+  EXPECT_TRUE(r.status.ok());
+  EXPECT_EQ(r.out, (Values{5, 5, 5}));
+  ASSERT_EQ(submissions_.size(), 1u);
+  EXPECT_TRUE(submissions_[0].urgency.is_short);
+}
+
+TEST_F(Queue, WhatWaitsGoesTogetherAndEachGetsItsOwn) {
+  for (int i = 0; i < 20; ++i) wait_with(request(static_cast<float>(i), 1 + i % 3));
+  release();
+  ASSERT_EQ(submissions_.size(), 1u);
+  EXPECT_EQ(submissions_[0].xyz.size(), 3u * (7 * 1 + 7 * 2 + 6 * 3));
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_TRUE(requests_[i]->status.ok());
+    EXPECT_EQ(requests_[i]->out, Values(1 + i % 3, static_cast<float>(i)));
+  }
+}
+
+TEST_F(Queue, OtherScenesAndQuantitiesGoApart) {
+  wait_with(request(1));
+  wait_with(request(2, 1, {.scene = scene_number(2)}));
+  wait_with(request(3, 1, {.quantity = Quantity::kValueAndGradient}));
+  wait_with(request(4));
+  release();
+  ASSERT_EQ(submissions_.size(), 3u);
+  EXPECT_EQ(values(0), (Values{1, 4}));
+  EXPECT_EQ(values(1), Values{2});
+  EXPECT_EQ(values(2), Values{3});
+  EXPECT_EQ(submissions_[1].scene, scene_number(2).get());
+  EXPECT_EQ(submissions_[2].quantity, Quantity::kValueAndGradient);
+  EXPECT_EQ(requests_[2]->out.size(), 4u);
+}
+
+TEST_F(Queue, PriorityThenDeadlineThenArrival) {
+  wait_with(request(1));
+  wait_with(request(2, 1, {.deadline = kLater}));
+  wait_with(request(3, 1, {.priority = 1}));
+  wait_with(request(4, 1, {.deadline = kSoon}));
+  wait_with(request(5, 1, {.priority = -1, .deadline = kSoon}));
+  wait_with(request(6));
+  release();
+  ASSERT_EQ(submissions_.size(), 1u);
+  EXPECT_EQ(values(0), (Values{3, 4, 2, 1, 6, 5}));
+}
+
+TEST_F(Queue, NoMoreIsJoinedThanTheBound) {
+  constexpr std::size_t kMost = EvaluationQueue::kSmallPoints;
+  for (int i = 0; i < 6; ++i) wait_with(request(static_cast<float>(i), kMost));
+  release();
+  ASSERT_EQ(submissions_.size(), 2u);
+  EXPECT_EQ(submissions_[0].xyz.size(), 3 * EvaluationQueue::kJoinedPoints);
+  EXPECT_EQ(submissions_[1].xyz.size(), 3 * 2 * kMost);
+}
+
+TEST_F(Queue, TheOldestIsNotPassedForEver) {
+  wait_with(request(0, 1, {.priority = -1}));
+  for (int i = 1; i <= 5; ++i) {
+    wait_with(request(static_cast<float>(i), 1, {.scene = scene_number(1 + i), .priority = 1}));
+  }
+  release();
+  ASSERT_EQ(submissions_.size(), 6u);
+  EXPECT_EQ(values(3), Values{0});
+  EXPECT_EQ(values(5), Values{5});
+}
+
+TEST_F(Queue, LargeBatchesGoAloneAndAreNotShort) {
+  wait_with(request(1, EvaluationQueue::kSmallPoints + 1));
+  wait_with(request(2));
+  wait_with(request(3));
+  release();
+  ASSERT_EQ(submissions_.size(), 2u);
+  EXPECT_EQ(values(0), (Values{2, 3}));
+  EXPECT_FALSE(submissions_[1].urgency.is_short);
+  EXPECT_EQ(requests_[0]->out, Values(EvaluationQueue::kSmallPoints + 1, 1.0f));
+}
+
+TEST_F(Queue, APassedDeadlineIsAnsweredWithoutARun) {
+  wait_with(request(1, 1, {.deadline = kSoon}));
+  wait_with(request(2));
+  wait_with(request(3, EvaluationQueue::kSmallPoints + 1, {.deadline = kSoon}));
+  now_ = kSoon;
+  release();
+  EXPECT_EQ(requests_[0]->status.code(), absl::StatusCode::kDeadlineExceeded);
+  EXPECT_TRUE(requests_[1]->status.ok());
+  EXPECT_EQ(requests_[2]->status.code(), absl::StatusCode::kDeadlineExceeded);
+  ASSERT_EQ(submissions_.size(), 1u);
+  EXPECT_EQ(values(0), Values{2});
+}
+
+TEST_F(Queue, ACancelledBatchIsNotRun) {
+  std::atomic<bool> is_cancelled = false;
+  wait_with(request(1, 1, {.cancelled = [&] { return is_cancelled.load(); }}));
+  wait_with(request(2, 1, {.cancelled = [] { return false; }}));
+  is_cancelled = true;
+  release();
+  EXPECT_EQ(requests_[0]->status.code(), absl::StatusCode::kCancelled);
+  EXPECT_TRUE(requests_[1]->status.ok());
+  EXPECT_EQ(values(0), Values{2});
+}
+
+TEST_F(Queue, AFailureIsThatOfAllThatWentTogether) {
+  wait_with(request(1));
+  wait_with(request(2));
+  outcome_ = absl::InternalError("no device");
+  release();
+  EXPECT_EQ(requests_[0]->status, outcome_);
+  EXPECT_EQ(requests_[1]->status, outcome_);
+}
+
+class BoundedQueue : public Queue {
+ protected:
+  BoundedQueue() : Queue({.max_requests = 3, .max_points = 100}) {}
+
+  void expect_refused(Request& r) {
+    r.status = queue_.evaluate(r.batch);
+    EXPECT_EQ(r.status.code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_GE(retry_after_ms(r.status).value_or(0), 1);
+  }
+};
+
+TEST_F(BoundedQueue, RefusesMoreRequestsAtOnce) {
+  for (int i = 0; i < 3; ++i) wait_with(request(1));
+  expect_refused(request(2));
+  // Those that are bounded elsewhere, and those that ask for nothing, are not refused.
+  wait_with(request(3, 1, {.is_admitted = true}));
+  Request& nothing = request(4, 0);
+  EXPECT_TRUE(queue_.evaluate(nothing.batch).ok());
+  release();
+  for (const int i : {0, 1, 2, 4}) EXPECT_TRUE(requests_[i]->status.ok());
+  // There is room again.
+  Request& again = request(5);
+  EXPECT_TRUE(queue_.evaluate(again.batch).ok());
+}
+
+TEST_F(BoundedQueue, RefusesMorePointsAtOnceButNeverWhereNothingWaits) {
+  wait_with(request(1, 1000));
+  expect_refused(request(2));
+  release();
+  EXPECT_TRUE(requests_[0]->status.ok());
+  EXPECT_FALSE(retry_after_ms(absl::ResourceExhaustedError("of another kind")));
+}
+
+class DelayedQueue : public Queue {
+ protected:
+  DelayedQueue() : Queue({.delay = std::chrono::hours(1)}) {}
+};
+
+TEST_F(DelayedQueue, AFullSubmissionIsNotHeldBack) {
+  held_ = {};
+  for (int i = 0; i < 4; ++i) {
+    Request& r = request(static_cast<float>(i), EvaluationQueue::kSmallPoints);
+    r.thread = std::thread([this, &r] { r.status = queue_.evaluate(r.batch); });
+  }
+  release();
+  ASSERT_EQ(submissions_.size(), 1u);
+  EXPECT_EQ(submissions_[0].xyz.size(), 3 * EvaluationQueue::kJoinedPoints);
+}
+
+}  // namespace
+}  // namespace isofield::engine
