@@ -15,10 +15,12 @@ class BracketedRoot {
       : low_(low), high_(high), f_low_(f_low), f_high_(f_high), tolerance_(tolerance) {
     const double halvings = std::ceil(std::log2(std::max((high - low) / (2 * tolerance), 1.0)));
     reach_ = tolerance * std::exp2(halvings + 1);
+    left_ = static_cast<int>(halvings) + 1;
     truncation_ = 0.2 / std::max(high - low, tolerance);
   }
 
-  bool done() const { return high_ - low_ <= 2 * tolerance_; }
+  // Also where rounding leaves no number between the two ends.
+  bool done() const { return left_ <= 0 || high_ - low_ <= 2 * tolerance_; }
   double root() const { return 0.5 * (low_ + high_); }
 
   // Where to evaluate f next; the answer goes to take().
@@ -34,6 +36,7 @@ class BracketedRoot {
     return x_;
   }
   void take(double f) {
+    --left_;
     if ((f > 0) == (f_low_ > 0)) {
       low_ = x_;
       f_low_ = f;
@@ -48,6 +51,7 @@ class BracketedRoot {
   double reach_;       // half the width that bisection, with one evaluation to spare, would have left by now
   double truncation_;  // kappa_1 of the method; kappa_2 = 2, n_0 = 1
   double x_ = 0;
+  int left_;  // evaluations, at most
 };
 
 }  // namespace isofield::engine

@@ -18,7 +18,7 @@ using blobtree::RaySpan;
 // Rays that are under way at once, and bricks that they are walked through together in a round: what a round holds in
 // memory, and what is evaluated in vain for rays that hit early in it.
 constexpr std::size_t kRays = 1u << 15;
-constexpr std::size_t kBricksPerRound = 1u << 17;
+constexpr std::size_t kBricksPerRound = 1u << 16;
 constexpr std::size_t kMostBricksPerRay = 64;
 
 dvec3 vec3_at(std::span<const float> numbers, std::size_t i) {
@@ -33,9 +33,10 @@ void append(std::vector<float>& xyz, const dvec3& p) {
 struct Walker {
   std::uint32_t number;  // of the batch
   Ray ray;               // of unit direction
-  RaySpan ahead;
-  double last;    // where the field was looked at last
-  double excess;  // there
+  RaySpan ahead;         // what it has not been walked through
+  double start;          // where it is looked at first
+  double last;           // where the field was looked at last
+  double excess;         // there
   bool is_inside;
 };
 
@@ -89,7 +90,7 @@ class Cast {
       const Ray ray{vec3_at(request_.origins, i), direction * (1 / length(direction))};
       const RaySpan ahead = clip(ray, index_.box, {0, request_.max_distance});
       if (ahead.empty()) continue;
-      walkers_.push_back({static_cast<std::uint32_t>(i), ray, ahead, ahead.begin, 0, false});
+      walkers_.push_back({static_cast<std::uint32_t>(i), ray, ahead, ahead.begin, ahead.begin, 0, false});
       append(xyz_, ray.point(ahead.begin));
     }
     ISOFIELD_RETURN_IF_ERROR(evaluate());
@@ -112,15 +113,7 @@ class Cast {
     for (Walker& w : walkers_) {
       spans_.clear();
       is_last.push_back(index_.tree.walk(w.ray, w.ahead, bricks, spans_) < bricks);
-      double last = w.last;
-      for (const RaySpan& span : spans_) {
-        if (span.begin != last) sample(w.ray, span.begin);
-        const double steps = std::max(std::ceil((span.end - span.begin) / index_.cell_size - 1e-6), 1.0);
-        for (double n = 1; n < steps; ++n) sample(w.ray, span.begin + (span.end - span.begin) * (n / steps));
-        sample(w.ray, span.end);
-        last = span.end;
-      }
-      w.ahead.begin = last;
+      look_through(w, is_last.back());
       ends.push_back(samples_.size());
     }
     ISOFIELD_RETURN_IF_ERROR(evaluate());
@@ -133,6 +126,27 @@ class Cast {
     }
     walkers_.resize(kept);
     return absl::OkStatus();
+  }
+
+  // Samples a walker's new spans: at their ends, and in between at multiples of a cell from its start, so that it does
+  // not depend on the batch how far a ray gets in a round. Spans of two rounds may touch.
+  void look_through(Walker& w, bool is_last) {
+    double last = w.last;
+    const auto sample_at = [&](double t) {
+      if (t > last) sample(w.ray, last = t);
+    };
+    for (const RaySpan& span : spans_) {
+      if (span.begin != w.ahead.begin) {
+        sample_at(w.ahead.begin);
+        sample_at(span.begin);
+      }
+      const double cell = index_.cell_size;
+      for (double n = std::floor((last - w.start) / cell) + 1; w.start + n * cell < span.end; ++n) {
+        sample_at(w.start + n * cell);
+      }
+      w.ahead.begin = span.end;
+    }
+    if (is_last) sample_at(w.ahead.begin);
   }
 
   void sample(const Ray& ray, double t) {
@@ -184,9 +198,10 @@ class Cast {
       // Where the gradient vanishes, the side that the ray is on.
       const dvec3 normal = slope > 0 ? outward * (1 / slope) : c.ray.direction * (hits_.inside[c.number] ? 1.0 : -1.0);
       float* const out = &hits_.normals[3 * std::size_t{c.number}];
-      out[0] = static_cast<float>(normal.x);
-      out[1] = static_cast<float>(normal.y);
-      out[2] = static_cast<float>(normal.z);
+      // One zero: a -0 means nothing to a client.
+      out[0] = static_cast<float>(normal.x) + 0.0f;
+      out[1] = static_cast<float>(normal.y) + 0.0f;
+      out[2] = static_cast<float>(normal.z) + 0.0f;
       if (leaves[n] != blobtree::kNoLeaf) hits_.nodes[c.number] = scene_.tape().leaves[leaves[n]].node;
     }
     return absl::OkStatus();

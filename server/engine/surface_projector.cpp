@@ -48,9 +48,10 @@ dvec3 rounded(const dvec3& p) {
 }
 
 void store(std::vector<float>& rows, std::size_t i, const dvec3& v) {
-  rows[3 * i] = static_cast<float>(v.x);
-  rows[3 * i + 1] = static_cast<float>(v.y);
-  rows[3 * i + 2] = static_cast<float>(v.z);
+  // One zero: a -0 means nothing to a client.
+  rows[3 * i] = static_cast<float>(v.x) + 0.0f;
+  rows[3 * i + 1] = static_cast<float>(v.y) + 0.0f;
+  rows[3 * i + 2] = static_cast<float>(v.z) + 0.0f;
 }
 
 class Projection {

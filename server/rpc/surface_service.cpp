@@ -209,14 +209,17 @@ absl::Status SurfaceService::slice(const grpc::ServerContext& context, const v1:
                                    v1::SliceResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::Plane plane, read_plane(request, limits_));
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::Slice slice,
-                            engine::slice(engine_.fields(), *leased.scene, plane,
-                                          {request.levels().data(), std::size_t(request.levels_size())},
-                                          [&] { return context.IsCancelled(); }));
+  std::vector<double> levels(request.levels().begin(), request.levels().end());
+  if (levels.empty()) {
+    ISOFIELD_ASSIGN_OR_RETURN(const double surface, read_iso(std::optional<double>(), leased.scene->tape().law));
+    levels.push_back(surface);
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::Slice slice, engine::slice(engine_.fields(), *leased.scene, plane, levels,
+                                                                     [&] { return context.IsCancelled(); }));
   set_rows(std::span(slice.values), plane.counts[0], *response.mutable_values());
-  for (int i = 0; i < request.levels_size(); ++i) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
     v1::LevelCurves& curves = *response.add_curves();
-    curves.set_level(request.levels(i));
+    curves.set_level(levels[i]);
     set_rows(std::span(slice.lines[i].points), 2, *curves.mutable_points());
     curves.mutable_starts()->set_dtype(v1::Tensor::UINT32);
     curves.mutable_starts()->add_shape(slice.lines[i].starts.size());
