@@ -30,6 +30,11 @@ int main(int argc, char** argv) {
   add_eval_command(app, context);
   add_mesh_command(app, context);
   add_render_command(app, context);
+  add_measure_command(app, context);
+  add_ray_command(app, context);
+  add_project_command(app, context);
+  add_inside_command(app, context);
+  add_slice_command(app, context);
   add_operator_commands(app, context);
   add_info_command(app, context);
   context.server = "127.0.0.1:50051";

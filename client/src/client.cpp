@@ -42,6 +42,7 @@ absl::StatusOr<Client> Client::connect(const std::string& address, const ClientO
   impl->operators = v1::OperatorService::NewStub(channel);
   impl->fields = v1::FieldService::NewStub(channel);
   impl->meshes = v1::MeshService::NewStub(channel);
+  impl->surfaces = v1::SurfaceService::NewStub(channel);
   impl->infos = v1::InfoService::NewStub(channel);
   return Client(std::move(impl));
 }

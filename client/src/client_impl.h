@@ -15,6 +15,7 @@
 #include "isofield/v1/mesh_service.grpc.pb.h"
 #include "isofield/v1/operator_service.grpc.pb.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
+#include "isofield/v1/surface_service.grpc.pb.h"
 
 namespace isofield {
 
@@ -25,6 +26,7 @@ struct Client::Impl {
   std::unique_ptr<v1::OperatorService::Stub> operators;
   std::unique_ptr<v1::FieldService::Stub> fields;
   std::unique_ptr<v1::MeshService::Stub> meshes;
+  std::unique_ptr<v1::SurfaceService::Stub> surfaces;
   std::unique_ptr<v1::InfoService::Stub> infos;
 
   static void set_timeout(grpc::ClientContext& context, std::optional<std::chrono::milliseconds> timeout) {

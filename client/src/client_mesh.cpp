@@ -75,4 +75,15 @@ absl::StatusOr<Mesh> Client::mesh(const v1::MeshRequest& request, const Progress
   return mesh;
 }
 
+absl::StatusOr<v1::MeasureResponse> Client::measure(const v1::MeshRequest& request) {
+  v1::MeasureResponse response;
+  const auto status = impl_->retry([&] {
+    grpc::ClientContext context;
+    Impl::set_timeout(context, impl_->options.stream_timeout);
+    return from_grpc(impl_->meshes->Measure(&context, request, &response), impl_->address);
+  });
+  if (!status.ok()) return status;
+  return response;
+}
+
 }  // namespace isofield

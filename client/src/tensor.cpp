@@ -52,4 +52,8 @@ absl::Status append_indices(const v1::Tensor& tensor, std::uint64_t columns, std
   return append(tensor, v1::Tensor::UINT32, columns, out);
 }
 
+absl::Status append_bytes(const v1::Tensor& tensor, std::uint64_t columns, std::vector<std::uint8_t>& out) {
+  return append(tensor, v1::Tensor::UINT8, columns, out);
+}
+
 }  // namespace isofield

@@ -20,5 +20,6 @@ inline void set_points(std::span<const float> xyz, v1::Tensor& tensor) {
 // INTERNAL: the type, the shape and the bytes do not fit each other or the expectation.
 absl::Status append_floats(const v1::Tensor& tensor, std::uint64_t columns, std::vector<float>& out);
 absl::Status append_indices(const v1::Tensor& tensor, std::uint64_t columns, std::vector<std::uint32_t>& out);
+absl::Status append_bytes(const v1::Tensor& tensor, std::uint64_t columns, std::vector<std::uint8_t>& out);
 
 }  // namespace isofield

@@ -99,6 +99,7 @@ struct Box {
 
   bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
   void add(const Box& other);
+  bool operator==(const Box&) const = default;
   bool touches(const Box& other) const {
     return min.x <= other.max.x && other.min.x <= max.x && min.y <= other.max.y && other.min.y <= max.y &&
            min.z <= other.max.z && other.min.z <= max.z;

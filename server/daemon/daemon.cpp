@@ -30,6 +30,7 @@
 #include "rpc/operator_service.h"
 #include "rpc/scene_service.h"
 #include "rpc/scene_source.h"
+#include "rpc/surface_service.h"
 
 namespace isofield::daemon {
 namespace {
@@ -130,11 +131,12 @@ absl::Status run(const Config& config, const std::string& version) {
   rpc::OperatorService operator_service(operators, scenes, *engine, config.limits);
   rpc::FieldService field_service(scenes, *engine, config.limits);
   rpc::MeshService mesh_service(scenes, *engine, config.limits);
+  rpc::SurfaceService surface_service(scenes, *engine, config.limits);
   rpc::InfoService info_service(operators, *engine, config.limits, version);
-  ISOFIELD_ASSIGN_OR_RETURN(
-      const Running running,
-      start_server(config, {&scene_service, &operator_service, &field_service, &mesh_service, &info_service},
-                   field_service));
+  ISOFIELD_ASSIGN_OR_RETURN(const Running running,
+                            start_server(config, {&scene_service, &operator_service, &field_service, &mesh_service,
+                                                  &surface_service, &info_service},
+                                         field_service));
 
   int signal = 0;
   sigwait(&signals, &signal);

@@ -21,6 +21,8 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
           },
           queue),
       mesher_(*device_, kernels_),
+      rays_(fields_),
+      projector_(fields_),
       operators_(*device_, kernels_, volumes_) {}
 
 absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions& options,

@@ -15,7 +15,9 @@
 #include "engine/kernel_cache.h"
 #include "engine/mesher.h"
 #include "engine/operator_evaluator.h"
+#include "engine/ray_caster.h"
 #include "engine/resident_scene.h"
+#include "engine/surface_projector.h"
 #include "gpu/device.h"
 #include "isofield/v1/scene.pb.h"
 
@@ -57,6 +59,8 @@ class Engine {
   gpu::Device& device() { return *device_; }
   FieldEvaluator& fields() { return fields_; }
   Mesher& mesher() { return mesher_; }
+  RayCaster& rays() { return rays_; }
+  SurfaceProjector& projector() { return projector_; }
   OperatorEvaluator& operators() { return operators_; }
 
  private:
@@ -69,6 +73,8 @@ class Engine {
   FieldEvaluator fields_;
   EvaluationQueue queue_;
   Mesher mesher_;
+  RayCaster rays_;
+  SurfaceProjector projector_;
   OperatorEvaluator operators_;
   mutable std::mutex mutex_;
   absl::flat_hash_map<std::uint64_t, SceneLease> resident_;

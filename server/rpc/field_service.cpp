@@ -3,10 +3,10 @@
 #include <absl/strings/str_cat.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
+#include "rpc/geometry_arguments.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"
 
@@ -55,17 +55,6 @@ absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context
   batch.deadline = context.deadline();
   batch.cancelled = [&context] { return context.IsCancelled(); };
   return batch;
-}
-
-absl::StatusOr<blobtree::dvec3> read_vector(const char* name, const google::protobuf::RepeatedField<double>& v) {
-  if (v.size() != 3) return absl::InvalidArgumentError(absl::StrCat(name, " holds ", v.size(), " numbers: expected 3"));
-  for (int i = 0; i < 3; ++i) {
-    if (!(std::abs(v[i]) <= blobtree::kMaxCoordinate)) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          name, "[", i, "] = ", v[i], ": expected a finite number of magnitude at most ", blobtree::kMaxCoordinate));
-    }
-  }
-  return blobtree::dvec3{v[0], v[1], v[2]};
 }
 
 absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& request, const Limits& limits) {

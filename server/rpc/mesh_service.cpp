@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "engine/mesh_lattice.h"
+#include "engine/mesh_measure.h"
 #include "engine/status_macros.h"
+#include "rpc/geometry_arguments.h"
 #include "rpc/status.h"
 
 namespace isofield::rpc {
@@ -20,36 +21,11 @@ constexpr std::size_t kPartBytes = 1u << 20;
 constexpr auto kProgressEvery = std::chrono::milliseconds(100);
 constexpr std::uint32_t kMaxResolution = 1u << 20;
 
-absl::StatusOr<std::optional<blobtree::Box>> read_bounds(const v1::MeshRequest& request) {
-  if (request.bounds_min().empty() && request.bounds_max().empty()) return std::nullopt;
-  if (request.bounds_min_size() != 3 || request.bounds_max_size() != 3) {
-    return absl::InvalidArgumentError(absl::StrCat("bounds_min and bounds_max hold ", request.bounds_min_size(),
-                                                   " and ", request.bounds_max_size(),
-                                                   " numbers: expected 3 each, or none"));
-  }
-  for (int i = 0; i < 3; ++i) {
-    const double low = request.bounds_min(i), high = request.bounds_max(i);
-    const bool fits = std::abs(low) <= blobtree::kMaxCoordinate && std::abs(high) <= blobtree::kMaxCoordinate;
-    if (!fits || !(low < high)) {
-      return absl::InvalidArgumentError(absl::StrCat("bounds along ", std::string(1, "xyz"[i]), " = [", low, ", ", high,
-                                                     "]: expected finite numbers of magnitude at most ",
-                                                     blobtree::kMaxCoordinate, ", the first below the second"));
-    }
-  }
-  const auto& a = request.bounds_min();
-  const auto& b = request.bounds_max();
-  return blobtree::Box{{a[0], a[1], a[2]}, {b[0], b[1], b[2]}};
-}
-
 absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const engine::MeshRequest& so_far,
                                       const blobtree::Tape& tape) {
   switch (request.cells_case()) {
     case v1::MeshRequest::kCellSize:
-      if (!(request.cell_size() > 0) || !(request.cell_size() <= blobtree::kMaxCoordinate)) {
-        return absl::InvalidArgumentError(
-            absl::StrCat("cell_size = ", request.cell_size(), ": expected a finite length > 0"));
-      }
-      return request.cell_size();
+      return read_length("cell_size", request.cell_size());
     case v1::MeshRequest::kResolution: {
       if (request.resolution() < 1 || request.resolution() > kMaxResolution) {
         return absl::InvalidArgumentError(
@@ -67,25 +43,9 @@ absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const engi
 absl::StatusOr<engine::MeshRequest> read_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
                                                  const Limits& limits) {
   engine::MeshRequest r;
-  ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request));
-  if (!r.bounds && !tape.support.empty() && !(tape.support.max.x < blobtree::kMaxCoordinate)) {
-    return absl::InvalidArgumentError(
-        "bounds: expected, since the operators of this scene do not bound its field by themselves");
-  }
-  if (tape.law == operators::Law::kSigned) {
-    r.iso = request.iso();
-    if (!(std::abs(r.iso) <= blobtree::kMaxCoordinate) || (r.iso > 0 && !r.bounds)) {
-      return absl::InvalidArgumentError(absl::StrCat("iso = ", request.iso(),
-                                                     ": expected a finite value; above 0, where a signed field has no "
-                                                     "bounds of its own, with stated bounds"));
-    }
-  } else if (request.has_iso()) {
-    if (!(request.iso() > 0 && request.iso() < 1)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("iso = ", request.iso(), ": expected a value within ]0, 1[, or none for 0.5"));
-    }
-    r.iso = request.iso();
-  }
+  ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request.bounds_min(), request.bounds_max()));
+  ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
+  ISOFIELD_RETURN_IF_ERROR(check_bounded(tape, r.bounds, r.iso));
   r.with_normals = !request.omit_normals();
   r.max_cells = limits.max_mesh_cells;
   ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_cell_size(request, r, tape));
@@ -111,6 +71,16 @@ bool write_rows(Writer& writer, const std::vector<T>& rows, v1::Tensor::DType dt
     if (!writer.Write(response)) return false;
   }
   return true;
+}
+
+void fill_summary(const engine::Mesh& mesh, const engine::MeshRequest& request, std::uint64_t scene_version,
+                  Clock::time_point start, v1::MeshSummary& summary) {
+  summary.set_vertices(mesh.positions.size() / 3);
+  summary.set_triangles(mesh.triangles.size() / 3);
+  summary.set_cell_size(request.cell_size);
+  summary.set_cells(mesh.cells);
+  summary.set_seconds(std::chrono::duration<double>(Clock::now() - start).count());
+  summary.set_scene_version(scene_version);
 }
 
 }  // namespace
@@ -139,13 +109,7 @@ grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshReque
   if (!mesh.ok()) return to_grpc(mesh.status());
 
   v1::MeshResponse response;
-  v1::MeshSummary& summary = *response.mutable_summary();
-  summary.set_vertices(mesh->positions.size() / 3);
-  summary.set_triangles(mesh->triangles.size() / 3);
-  summary.set_cell_size(r->cell_size);
-  summary.set_cells(mesh->cells);
-  summary.set_seconds(std::chrono::duration<double>(Clock::now() - start).count());
-  summary.set_scene_version(leased->version);
+  fill_summary(*mesh, *r, leased->version, start, *response.mutable_summary());
   if (writer->Write(response) &&
       write_rows(*writer, mesh->positions, v1::Tensor::FLOAT32, &v1::MeshPart::mutable_positions) &&
       write_rows(*writer, mesh->normals, v1::Tensor::FLOAT32, &v1::MeshPart::mutable_normals) &&
@@ -153,6 +117,30 @@ grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshReque
     return grpc::Status::OK;
   }
   return {grpc::StatusCode::CANCELLED, "the client is gone"};
+}
+
+grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRequest* request,
+                                  v1::MeasureResponse* response) {
+  const Clock::time_point start = Clock::now();
+  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
+  if (!leased.ok()) return to_grpc(leased.status());
+  absl::StatusOr<engine::MeshRequest> r = read_request(*request, leased->scene->tape(), limits_);
+  if (!r.ok()) return to_grpc(r.status());
+  r->with_normals = false;
+  const engine::MeshCallbacks callbacks{.cancelled = [&] { return context->IsCancelled(); }};
+  const absl::StatusOr<engine::Mesh> mesh = engine_.mesher().mesh(*leased->scene, *r, callbacks);
+  if (!mesh.ok()) return to_grpc(mesh.status());
+
+  const engine::MeshMeasures measures = engine::measure(*mesh);
+  response->set_area(measures.area);
+  response->set_volume(measures.volume);
+  if (measures.volume > 0) set_vector(measures.centroid, *response->mutable_centroid());
+  if (!measures.bounds.empty()) {
+    set_vector(measures.bounds.min, *response->mutable_bounds_min());
+    set_vector(measures.bounds.max, *response->mutable_bounds_max());
+  }
+  fill_summary(*mesh, *r, leased->version, start, *response->mutable_summary());
+  return grpc::Status::OK;
 }
 
 }  // namespace isofield::rpc

@@ -14,6 +14,7 @@ class MeshService final : public v1::MeshService::Service {
       : scenes_(scenes), engine_(engine), limits_(limits) {}
 
   grpc::Status Mesh(grpc::ServerContext*, const v1::MeshRequest*, grpc::ServerWriter<v1::MeshResponse>*) override;
+  grpc::Status Measure(grpc::ServerContext*, const v1::MeshRequest*, v1::MeasureResponse*) override;
 
  private:
   const SceneSource& scenes_;

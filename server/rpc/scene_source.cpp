@@ -17,12 +17,13 @@ absl::StatusOr<LeasedScene> SceneSource::lease(const v1::SceneRef& ref) const {
       ISOFIELD_ASSIGN_OR_RETURN(const catalog::Entry entry, catalog_.get(ref.name()));
       ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease scene,
                                 engine_.acquire(entry.version, *entry.scene, *entry.operators));
-      return LeasedScene{std::move(scene), entry.version};
+      return LeasedScene{std::move(scene), entry.version, entry.scene};
     }
     case v1::SceneRef::kInline: {
       ISOFIELD_ASSIGN_OR_RETURN(const auto operators, operators_.table_for(ref.inline_()));
       ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease scene, engine_.make_resident(ref.inline_(), *operators));
-      return LeasedScene{std::move(scene), 0};
+      const std::shared_ptr<const v1::Scene> unowned(std::shared_ptr<void>(), &ref.inline_());
+      return LeasedScene{std::move(scene), 0, unowned};
     }
     default:
       return no_scene();

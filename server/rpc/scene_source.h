@@ -13,6 +13,8 @@ namespace isofield::rpc {
 struct LeasedScene {
   engine::SceneLease scene;
   std::uint64_t version = 0;  // 0: inline
+  // What it was made of; of an inline one the request's own, which must outlive this.
+  std::shared_ptr<const v1::Scene> message;
 };
 
 struct FoundScene {

@@ -30,6 +30,14 @@ std::size_t first_not_finite(std::span<const T> numbers) {
   return numbers.size();
 }
 
+template <class T>
+void fill(std::span<const T> numbers, std::uint64_t columns, v1::Tensor::DType dtype, v1::Tensor& tensor) {
+  tensor.set_dtype(dtype);
+  tensor.add_shape(numbers.size() / columns);
+  tensor.add_shape(columns);
+  tensor.set_data(numbers.data(), numbers.size_bytes());
+}
+
 }  // namespace
 
 absl::StatusOr<RowArray> RowArray::read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
@@ -67,14 +75,14 @@ absl::StatusOr<RowArray> RowArray::read(const v1::Tensor& tensor, std::uint64_t 
   return array;
 }
 
-absl::StatusOr<PointArray> PointArray::read(const v1::Tensor& tensor, std::uint64_t max_points) {
+absl::StatusOr<PointArray> PointArray::read(const v1::Tensor& tensor, std::uint64_t max_points,
+                                            const RowArray::Words& words) {
   PointArray array;
-  ISOFIELD_ASSIGN_OR_RETURN(
-      array.rows_, RowArray::read(tensor, 3, max_points, {"points", "points", "send chunks by EvaluateStream"}));
+  ISOFIELD_ASSIGN_OR_RETURN(array.rows_, RowArray::read(tensor, 3, max_points, words));
   const std::size_t bad = first_not_finite(array.xyz());
   if (bad < array.xyz().size()) {
-    return absl::InvalidArgumentError(absl::StrCat("points[", bad / 3, "].", std::string(1, "xyz"[bad % 3]), " = ",
-                                                   array.xyz()[bad], ": expected a finite float32"));
+    return absl::InvalidArgumentError(absl::StrCat(words.tensor, "[", bad / 3, "].", std::string(1, "xyz"[bad % 3]),
+                                                   " = ", array.xyz()[bad], ": expected a finite float32"));
   }
   return array;
 }
@@ -89,6 +97,16 @@ std::span<float> make_float_tensor(std::initializer_list<std::uint64_t> shape, v
   std::string* data = tensor.mutable_data();
   data->resize(4 * count);
   return {reinterpret_cast<float*>(data->data()), count};
+}
+
+void set_rows(std::span<const float> numbers, std::uint64_t columns, v1::Tensor& tensor) {
+  fill(numbers, columns, v1::Tensor::FLOAT32, tensor);
+}
+void set_rows(std::span<const std::uint32_t> numbers, std::uint64_t columns, v1::Tensor& tensor) {
+  fill(numbers, columns, v1::Tensor::UINT32, tensor);
+}
+void set_rows(std::span<const std::uint8_t> numbers, std::uint64_t columns, v1::Tensor& tensor) {
+  fill(numbers, columns, v1::Tensor::UINT8, tensor);
 }
 
 }  // namespace isofield::rpc

@@ -37,7 +37,9 @@ class PointArray {
  public:
   // INVALID_ARGUMENT: dtype, shape or size, or a coordinate that is not finite. RESOURCE_EXHAUSTED: more than
   // max_points. `tensor` must outlive the result.
-  static absl::StatusOr<PointArray> read(const v1::Tensor& tensor, std::uint64_t max_points);
+  static absl::StatusOr<PointArray> read(const v1::Tensor& tensor, std::uint64_t max_points,
+                                         const RowArray::Words& words = {"points", "points",
+                                                                         "send chunks by EvaluateStream"});
 
   std::span<const float> xyz() const { return rows_.numbers(); }
   std::size_t size() const { return xyz().size() / 3; }
@@ -48,5 +50,10 @@ class PointArray {
 
 // Makes a FLOAT32 tensor of this shape and returns its content, to be written by the caller.
 std::span<float> make_float_tensor(std::initializer_list<std::uint64_t> shape, v1::Tensor& tensor);
+
+// Makes a tensor of rows of so many numbers.
+void set_rows(std::span<const float> numbers, std::uint64_t columns, v1::Tensor& tensor);
+void set_rows(std::span<const std::uint32_t> numbers, std::uint64_t columns, v1::Tensor& tensor);
+void set_rows(std::span<const std::uint8_t> numbers, std::uint64_t columns, v1::Tensor& tensor);
 
 }  // namespace isofield::rpc

@@ -41,6 +41,11 @@ void add_import_command(CLI::App& app, Context& context);
 void add_eval_command(CLI::App& app, Context& context);
 void add_mesh_command(CLI::App& app, Context& context);
 void add_render_command(CLI::App& app, Context& context);
+void add_measure_command(CLI::App& app, Context& context);
+void add_ray_command(CLI::App& app, Context& context);
+void add_project_command(CLI::App& app, Context& context);
+void add_inside_command(CLI::App& app, Context& context);
+void add_slice_command(CLI::App& app, Context& context);
 void add_operator_commands(CLI::App& app, Context& context);  // operator ls, show, put, rm, eval, plot, pick
 void add_operator_eval_command(CLI::App& app, Context& context);
 void add_operator_plot_command(CLI::App& app, Context& context);

@@ -31,7 +31,7 @@ void MeshFlags::add_to(CLI::App& command) {
   import.add_to(command);
 }
 
-absl::StatusOr<Mesh> MeshFlags::request(const Context& context, double& seconds) const {
+absl::StatusOr<v1::MeshRequest> MeshFlags::message() const {
   v1::MeshRequest request;
   auto reference = scene_argument(scene, import.get());
   if (!reference.ok()) return reference.status();
@@ -46,20 +46,30 @@ absl::StatusOr<Mesh> MeshFlags::request(const Context& context, double& seconds)
   }
   if (iso) request.set_iso(*iso);
   request.set_omit_normals(omit_normals);
+  return request;
+}
+
+absl::StatusOr<Mesh> MeshFlags::request(const Context& context, double& seconds) const {
+  const auto request = message();
+  if (!request.ok()) return request.status();
   auto client = context.connect();
   if (!client.ok()) return client.status();
   ProgressLine progress(!context.json);
   const auto start = std::chrono::steady_clock::now();
-  auto mesh = client->mesh(request, [&](double fraction) {
+  auto mesh = client->mesh(*request, [&](double fraction) {
     progress.show(absl::StrFormat("meshing: %3.0f %%", 100 * fraction));
     return true;
   });
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (bounds.empty() && absl::IsInvalidArgument(mesh.status()) &&
-      absl::StrContains(mesh.status().message(), "bounds")) {
-    return absl::InvalidArgumentError(absl::StrCat(mesh.status().message(), " (--bounds)"));
-  }
+  if (!mesh.ok()) return explain(mesh.status());
   return mesh;
+}
+
+absl::Status MeshFlags::explain(const absl::Status& refusal) const {
+  if (!bounds.empty() || !absl::IsInvalidArgument(refusal) || !absl::StrContains(refusal.message(), "bounds")) {
+    return refusal;
+  }
+  return absl::InvalidArgumentError(absl::StrCat(refusal.message(), " (--bounds)"));
 }
 
 }  // namespace isofield

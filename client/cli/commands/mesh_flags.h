@@ -22,8 +22,12 @@ struct MeshFlags {
   ImportFlags import;
 
   void add_to(CLI::App& command);
+  // What they ask for, without asking.
+  absl::StatusOr<v1::MeshRequest> message() const;
   // With a progress line on a terminal. `seconds`: from the request to the last byte.
   absl::StatusOr<Mesh> request(const Context& context, double& seconds) const;
+  // With the flag's name where the server asks for bounds.
+  absl::Status explain(const absl::Status& refusal) const;
 };
 
 }  // namespace isofield

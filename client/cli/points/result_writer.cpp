@@ -1,9 +1,10 @@
 #include "points/result_writer.h"
 
 #include <absl/strings/match.h>
-#include <absl/strings/str_cat.h>
 
 #include <charconv>
+
+#include "points/npy_header.h"
 
 namespace isofield {
 namespace {
@@ -66,18 +67,7 @@ class NpyWriter : public ResultWriter {
   }
 
  private:
-  // Version 1.0, 128 bytes with the padding that the format asks for.
-  std::string header() const {
-    constexpr std::size_t kBytes = 128;
-    std::string description =
-        absl::StrCat("{'descr': '<f4', 'fortran_order': False, 'shape': (", rows_, ", ", columns_, "), }");
-    description.resize(kBytes - 11, ' ');
-    description.push_back('\n');
-    std::string text("\x93NUMPY\x01\x00", 8);
-    text.push_back(static_cast<char>(description.size()));
-    text.push_back('\0');
-    return text + description;
-  }
+  std::string header() const { return npy_header(rows_, columns_); }
 
   const std::size_t columns_;
   OutputFile& file_;

@@ -18,6 +18,7 @@
 #include "isofield/v1/operator_service.pb.h"
 #include "isofield/v1/scene.pb.h"
 #include "isofield/v1/scene_service.pb.h"
+#include "isofield/v1/surface_service.pb.h"
 
 namespace isofield {
 
@@ -59,6 +60,55 @@ struct OperatorValues {
   std::vector<std::string> columns;
   // [n, columns].
   std::vector<float> values;
+};
+
+// Where rays meet a surface: a row a ray. surface_service.proto, CastRaysResponse, says what the numbers are.
+struct RayHits {
+  // [n, 1]: infinite where nothing is hit.
+  std::vector<float> distances;
+  // [n, 3] each.
+  std::vector<float> positions;
+  std::vector<float> normals;
+  // [n, 1]: places in `names`; kNothing where nothing is hit.
+  std::vector<std::uint32_t> nodes;
+  // [n, 1]: 1 where the ray starts inside.
+  std::vector<std::uint8_t> inside;
+  std::vector<std::string> names;
+  // Model units; the cell size taken.
+  double cell_size = 0;
+
+  static constexpr std::uint32_t kNothing = ~0u;
+};
+
+// Points on a surface: a row a point. surface_service.proto, ProjectPointsResponse.
+struct Projections {
+  // [n, 3] each.
+  std::vector<float> positions;
+  std::vector<float> normals;
+  // [n, 1] each.
+  std::vector<std::uint8_t> converged;
+  std::vector<float> residuals;
+};
+
+// Polylines where a field has a value.
+struct LevelCurves {
+  double level = 0;
+  // [m, 2]: model units along the plane's axes.
+  std::vector<float> points;
+  // [k + 1]: the first point of each line, and m.
+  std::vector<std::uint32_t> starts;
+};
+
+// The field on a part of a plane.
+struct Slice {
+  // Points along u and v.
+  std::array<std::uint64_t, 2> counts;
+  // [counts[1], counts[0]].
+  std::vector<float> values;
+  // One for each level asked for; of none, that of the surface.
+  std::vector<LevelCurves> curves;
+  // The axes taken: unit vectors.
+  std::array<double, 3> u{}, v{};
 };
 
 // A connection to one isofieldd. Owns its channel; every method may be called from any number of threads at once.
@@ -127,6 +177,17 @@ class Client {
   // Called with the fraction done, within [0, 1], on the caller's thread; false cancels the mesh.
   using Progress = std::function<bool(double fraction)>;
   absl::StatusOr<Mesh> mesh(const v1::MeshRequest& request, const Progress& progress = {});
+  // Area, volume, centroid and bounds of that mesh, which stays with the server. Takes as long as a stream may.
+  absl::StatusOr<v1::MeasureResponse> measure(const v1::MeshRequest& request);
+
+  // Questions about the surface; `request` states all but the rays or points, which are [n, 3] each. Large batches
+  // travel in several messages. INVALID_ARGUMENT: the numbers are no multiple of 3, or not as many.
+  absl::StatusOr<RayHits> cast_rays(v1::CastRaysRequest request, std::span<const float> origins,
+                                    std::span<const float> directions);
+  absl::StatusOr<Projections> project(v1::ProjectPointsRequest request, std::span<const float> xyz);
+  // [n]: 1 inside, else 0.
+  absl::StatusOr<std::vector<std::uint8_t>> contains(v1::ContainsRequest request, std::span<const float> xyz);
+  absl::StatusOr<Slice> slice(const v1::SliceRequest& request);
 
  private:
   struct Impl;

@@ -1,0 +1,47 @@
+#include <absl/strings/str_format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands/mesh_flags.h"
+#include "json_output.h"
+
+namespace isofield {
+namespace {
+
+absl::Status measure(const Context& context, const MeshFlags& flags) {
+  const auto request = flags.message();
+  if (!request.ok()) return request.status();
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  const auto m = client->measure(*request);
+  if (!m.ok()) return flags.explain(m.status());
+  if (context.json) {
+    print_json(*m);
+    return absl::OkStatus();
+  }
+  absl::PrintF("area     %.9g\nvolume   %.9g\n", m->area(), m->volume());
+  if (m->centroid_size() == 3) {
+    absl::PrintF("centroid %.9g %.9g %.9g\n", m->centroid(0), m->centroid(1), m->centroid(2));
+  }
+  if (m->bounds_min_size() == 3 && m->bounds_max_size() == 3) {
+    absl::PrintF("bounds   %.9g %.9g %.9g to %.9g %.9g %.9g\n", m->bounds_min(0), m->bounds_min(1), m->bounds_min(2),
+                 m->bounds_max(0), m->bounds_max(1), m->bounds_max(2));
+  }
+  absl::PrintF("mesh     %u vertices, %u triangles, cell %g\n", m->summary().vertices(), m->summary().triangles(),
+               m->summary().cell_size());
+  if (m->summary().triangles() == 0) absl::FPrintF(stderr, "the surface is empty\n");
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void add_measure_command(CLI::App& app, Context& context) {
+  const auto flags = std::make_shared<MeshFlags>();
+  flags->omit_normals = true;
+  CLI::App* command = app.add_subcommand("measure", "Area, volume, centroid and bounds of the surface's mesh");
+  flags->add_to(*command);
+  command->callback([&context, flags] { context.outcome = measure(context, *flags); });
+}
+
+}  // namespace isofield

@@ -1,0 +1,66 @@
+#include "commands/point_table.h"
+
+#include <CLI/CLI.hpp>
+
+#include "commands/scene_argument.h"
+#include "exit_codes.h"
+#include "json_output.h"
+#include "points/point_reader.h"
+
+namespace isofield {
+
+void PointTableArguments::add_to(CLI::App& command, const std::string& points_name) {
+  command.add_option("SCENE", scene, "A file, or else a name on the server")->required();
+  command
+      .add_option(points_name, points,
+                  "Text with x,y,z on each line (.csv), a NumPy array (n, 3) (.npy), or - for text from the standard "
+                  "input")
+      ->required();
+  command.add_option("--iso", iso,
+                     "Iso value of the surface: within ]0, 1[ of a positive field (default: 0.5), any of a signed one "
+                     "(default: 0)");
+  command
+      .add_option(
+          "-o,--output", output,
+          "Text with a header (.csv), a NumPy array of the numbers (.npy), or an object of arrays (.json); - is "
+          "the standard output")
+      ->capture_default_str();
+  flags.add_to(command);
+}
+
+absl::StatusOr<std::vector<float>> read_points(const std::string& path) {
+  auto reader = open_points(path);
+  if (!reader.ok()) return file_error(reader.status());
+  std::vector<float> xyz;
+  for (std::size_t before = 1; xyz.size() != before;) {
+    before = xyz.size();
+    if (auto status = (*reader)->read(Client::kChunkPoints, xyz); !status.ok()) return file_error(status);
+  }
+  return xyz;
+}
+
+absl::Status answer_points(const Context& context, const PointTableArguments& arguments, const AskPoints& ask) {
+  if (arguments.output == "-" && context.json) {
+    return usage_error("--json and results on the standard output do not go together; state -o FILE");
+  }
+  if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
+  const auto scene = scene_argument(arguments.scene, arguments.flags.get());
+  if (!scene.ok()) return scene.status();
+  const auto xyz = read_points(arguments.points);
+  if (!xyz.ok()) return xyz.status();
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  Table table;
+  if (auto status = ask(*client, *scene, *xyz, table); !status.ok()) return status;
+  auto file = OutputFile::create(arguments.output);
+  if (!file.ok()) return file_error(file.status());
+  absl::Status status = table.write(arguments.output, **file);
+  if (status.ok()) status = (*file)->commit();
+  if (!status.ok()) return file_error(status);
+  if (context.json) {
+    JsonObject().set("file", arguments.output).set("rows", static_cast<double>(table.rows())).print();
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace isofield

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "commands/context.h"
+#include "commands/import_flags.h"
+#include "points/table.h"
+
+namespace isofield {
+
+// What the commands share that ask a question of many points and write a table of answers.
+struct PointTableArguments {
+  std::string scene, points, output = "-";
+  std::optional<double> iso;
+  ImportFlags flags;
+
+  // `points_name`: the option that names the file of points.
+  void add_to(CLI::App& command, const std::string& points_name);
+};
+
+// All points of a file, [n, 3].
+absl::StatusOr<std::vector<float>> read_points(const std::string& path);
+
+// Reads, asks and writes. `ask` fills the table from the answers.
+using AskPoints =
+    std::function<absl::Status(Client& client, const v1::SceneRef& scene, std::span<const float> xyz, Table& table)>;
+absl::Status answer_points(const Context& context, const PointTableArguments& arguments, const AskPoints& ask);
+
+}  // namespace isofield

@@ -1,0 +1,84 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands/point_table.h"
+#include "exit_codes.h"
+
+namespace isofield {
+namespace {
+
+struct RayArguments : PointTableArguments {
+  std::string directions;
+  std::vector<double> direction, bounds;
+  std::optional<double> cell, max_distance;
+};
+
+absl::StatusOr<std::vector<float>> read_directions(const RayArguments& arguments, std::size_t rays) {
+  if (!arguments.directions.empty()) return read_points(arguments.directions);
+  std::vector<float> all;
+  for (std::size_t i = 0; i < rays; ++i) {
+    for (const double x : arguments.direction) all.push_back(static_cast<float>(x));
+  }
+  return all;
+}
+
+absl::Status cast(Client& client, const v1::SceneRef& scene, const RayArguments& arguments,
+                  std::span<const float> origins, Table& table) {
+  const auto directions = read_directions(arguments, origins.size() / 3);
+  if (!directions.ok()) return directions.status();
+  v1::CastRaysRequest request;
+  *request.mutable_scene() = scene;
+  if (arguments.iso) request.set_iso(*arguments.iso);
+  if (arguments.cell) request.set_cell_size(*arguments.cell);
+  if (arguments.max_distance) request.set_max_distance(*arguments.max_distance);
+  for (std::size_t i = 0; i < arguments.bounds.size(); ++i) {
+    (i < 3 ? request.mutable_bounds_min() : request.mutable_bounds_max())->Add(arguments.bounds[i]);
+  }
+  const auto hits = client.cast_rays(request, origins, *directions);
+  if (!hits.ok()) return hits.status();
+  std::vector<std::string> names;
+  for (const std::uint32_t node : hits->nodes) names.push_back(node == RayHits::kNothing ? "" : hits->names[node]);
+  table.add("distance", std::span<const float>(hits->distances));
+  table.add_vectors({"x", "y", "z"}, hits->positions);
+  table.add_vectors({"nx", "ny", "nz"}, hits->normals);
+  table.add("inside", std::span<const std::uint8_t>(hits->inside));
+  table.add_texts("node", std::move(names));
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void add_ray_command(CLI::App& app, Context& context) {
+  const auto arguments = std::make_shared<RayArguments>();
+  CLI::App* command = app.add_subcommand(
+      "ray", "Find where rays first meet the surface: distance (inf: nowhere),x,y,z,nx,ny,nz,inside,node");
+  arguments->add_to(*command, "--origins");
+  auto* each = command->add_option("--directions", arguments->directions,
+                                   "A direction for each origin, of any length; a file as the origins'");
+  command->add_option("--direction", arguments->direction, "x,y,z: one direction for all")
+      ->delimiter(',')
+      ->expected(3)
+      ->excludes(each);
+  command->add_option("--max-distance", arguments->max_distance, "Where the rays end, in model units")
+      ->check(CLI::Validator(check_positive, "above 0"));
+  command
+      ->add_option("--cell", arguments->cell,
+                   "What is thinner than this along a ray may be missed, in model units (default: chosen by the "
+                   "server after the thinnest part)")
+      ->check(CLI::Validator(check_positive, "above 0"));
+  command
+      ->add_option("--bounds", arguments->bounds, "x0,y0,z0,x1,y1,z1 in model units: where the surface is looked for")
+      ->delimiter(',')
+      ->expected(6);
+  command->callback([&context, arguments] {
+    if (arguments->directions.empty() && arguments->direction.empty()) {
+      context.outcome = usage_error("the rays have no direction; state --directions FILE or --direction x,y,z");
+      return;
+    }
+    context.outcome = answer_points(context, *arguments,
+                                    [&](Client& client, const v1::SceneRef& scene, std::span<const float> origins,
+                                        Table& table) { return cast(client, scene, *arguments, origins, table); });
+  });
+}
+
+}  // namespace isofield

@@ -1,0 +1,121 @@
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands/context.h"
+#include "commands/import_flags.h"
+#include "commands/scene_argument.h"
+#include "exit_codes.h"
+#include "json_output.h"
+#include "plot/slice_plot.h"
+#include "points/npy_header.h"
+#include "points/table.h"
+
+namespace isofield {
+namespace {
+
+struct SliceArguments {
+  std::string scene, output;
+  std::vector<double> origin, u{1, 0, 0}, v{0, 1, 0}, spacing, levels;
+  std::vector<std::uint64_t> counts;
+  int size = 800;
+  ImportFlags flags;
+};
+
+absl::StatusOr<Slice> request_slice(const Context& context, const SliceArguments& arguments) {
+  const auto scene = scene_argument(arguments.scene, arguments.flags.get());
+  if (!scene.ok()) return scene.status();
+  v1::SliceRequest request;
+  *request.mutable_scene() = *scene;
+  request.mutable_origin()->Assign(arguments.origin.begin(), arguments.origin.end());
+  request.mutable_u()->Assign(arguments.u.begin(), arguments.u.end());
+  request.mutable_v()->Assign(arguments.v.begin(), arguments.v.end());
+  request.mutable_spacing()->Assign(arguments.spacing.begin(), arguments.spacing.end());
+  request.mutable_counts()->Assign(arguments.counts.begin(), arguments.counts.end());
+  request.mutable_levels()->Assign(arguments.levels.begin(), arguments.levels.end());
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
+  return client->slice(request);
+}
+
+absl::Status write_slice(const Slice& slice, const SliceArguments& arguments, OutputFile& file) {
+  const std::array<double, 2> spacing{arguments.spacing.front(), arguments.spacing.back()};
+  if (absl::EndsWithIgnoreCase(arguments.output, ".png")) {
+    return write_png(draw(slice, spacing, stem(arguments.scene), arguments.size), file);
+  }
+  if (absl::EndsWithIgnoreCase(arguments.output, ".npy")) {
+    absl::Status status = file.write(npy_header(slice.counts[1], slice.counts[0]));
+    if (status.ok()) status = file.write(slice.values.data(), 4 * slice.values.size());
+    return status;
+  }
+  std::vector<double> along_u, along_v;
+  for (std::size_t n = 0; n < slice.values.size(); ++n) {
+    along_u.push_back(spacing[0] * static_cast<double>(n % slice.counts[0]));
+    along_v.push_back(spacing[1] * static_cast<double>(n / slice.counts[0]));
+  }
+  Table table;
+  table.add("u", std::span<const double>(along_u));
+  table.add("v", std::span<const double>(along_v));
+  table.add("value", std::span<const float>(slice.values));
+  return table.write(arguments.output, file);
+}
+
+absl::Status slice_scene(const Context& context, const SliceArguments& arguments) {
+  if (arguments.output == "-" && context.json) {
+    return usage_error("--json and results on the standard output do not go together; state -o FILE");
+  }
+  if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
+  const auto slice = request_slice(context, arguments);
+  if (!slice.ok()) return slice.status();
+  auto file = OutputFile::create(arguments.output);
+  if (!file.ok()) return file_error(file.status());
+  absl::Status status = write_slice(*slice, arguments, **file);
+  if (status.ok()) status = (*file)->commit();
+  if (!status.ok()) return file_error(status);
+  if (context.json) {
+    JsonObject().set("file", arguments.output).set("points", static_cast<double>(slice->values.size())).print();
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void add_slice_command(CLI::App& app, Context& context) {
+  const auto arguments = std::make_shared<SliceArguments>();
+  CLI::App* command = app.add_subcommand("slice", "Evaluate the field on a part of a plane, and draw it");
+  command->add_option("SCENE", arguments->scene, "A file, or else a name on the server")->required();
+  command->add_option("--origin", arguments->origin, "x,y,z: the first sample, lower left in a picture")
+      ->delimiter(',')
+      ->expected(3)
+      ->required();
+  command->add_option("--u", arguments->u, "x,y,z: to the right in a picture (default: 1,0,0)")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--v", arguments->v, "x,y,z: upwards (default: 0,1,0); made at right angles to u")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--spacing", arguments->spacing, "Model units between samples, for both axes or each")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->required();
+  command->add_option("--counts", arguments->counts, "Samples along u,v")->delimiter(',')->expected(2)->required();
+  command
+      ->add_option("--levels", arguments->levels,
+                   "Values whose curves a picture shows, the first one heavily (default: the surface's)")
+      ->delimiter(',');
+  command
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Picture (.png), NumPy array (counts[1], counts[0]) (.npy), or u,v,value as text (.csv) or an object "
+          "of arrays (.json); - is text on the standard output")
+      ->required();
+  command->add_option("--size", arguments->size, "Pixels of a picture's longer side")
+      ->check(CLI::Range(64, 8192))
+      ->capture_default_str();
+  arguments->flags.add_to(*command);
+  command->callback([&context, arguments] { context.outcome = slice_scene(context, *arguments); });
+}
+
+}  // namespace isofield

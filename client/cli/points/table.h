@@ -1,0 +1,54 @@
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "output_file.h"
+
+namespace isofield {
+
+// Results in named columns, all of the same length.
+class Table {
+ public:
+  // Every `stride`-th number from the first.
+  template <class T>
+  void add(const std::string& name, std::span<const T> numbers, std::size_t stride = 1) {
+    std::vector<float>& column = columns_.emplace_back(Column{name, {}, {}}).numbers;
+    for (std::size_t i = 0; i < numbers.size(); i += stride) column.push_back(static_cast<float>(numbers[i]));
+  }
+  // Three columns of rows x, y, z.
+  void add_vectors(const std::array<std::string, 3>& names, std::span<const float> xyz) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      add(names[axis], xyz.empty() ? xyz : xyz.subspan(axis), 3);
+    }
+  }
+  void add_texts(const std::string& name, std::vector<std::string> texts) {
+    columns_.push_back({name, {}, std::move(texts)});
+  }
+  std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
+
+  // By the name: *.npy is a NumPy array float32 [rows, columns] without the columns of texts; *.json an object of
+  // arrays by column, infinities null; anything else text with a header, nine significant digits each, which give a
+  // float32 back to the bit. Does not commit the file.
+  absl::Status write(const std::string& path, OutputFile& file) const;
+
+ private:
+  struct Column {
+    std::string name;
+    std::vector<float> numbers;
+    std::vector<std::string> texts;  // instead of numbers
+
+    std::size_t size() const { return numbers.empty() ? texts.size() : numbers.size(); }
+  };
+  absl::Status write_csv(OutputFile& file) const;
+  absl::Status write_npy(OutputFile& file) const;
+  absl::Status write_json(OutputFile& file) const;
+
+  std::vector<Column> columns_;
+};
+
+}  // namespace isofield

@@ -1,0 +1,253 @@
+#include "rpc/surface_service.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/iso_level.h"
+#include "engine/slicer.h"
+#include "engine/status_macros.h"
+#include "rpc/geometry_arguments.h"
+#include "rpc/status.h"
+#include "rpc/tensor.h"
+
+namespace isofield::rpc {
+namespace {
+
+constexpr int kMaxLevels = 64;
+// Of the longest edge of the supports: the tolerance of a projection that states none.
+constexpr double kProjectionTolerance = 1e-5;
+
+constexpr RowArray::Words kPoints{"points", "points", "send them in parts"};
+
+// Origins within reach, directions that are some, and as many of one as of the other.
+absl::Status check_rays(const PointArray& origins, const PointArray& directions) {
+  if (origins.size() != directions.size()) {
+    return absl::InvalidArgumentError(absl::StrCat("directions.shape = [", directions.size(),
+                                                   ", 3]: expected as many rows as origins has, ", origins.size()));
+  }
+  for (std::size_t i = 0; i < origins.xyz().size(); ++i) {
+    if (!(std::abs(origins.xyz()[i]) <= blobtree::kMaxCoordinate)) {
+      return absl::InvalidArgumentError(absl::StrCat("origins[", i / 3, "].", std::string(1, "xyz"[i % 3]), " = ",
+                                                     origins.xyz()[i], ": expected a magnitude of at most ",
+                                                     blobtree::kMaxCoordinate));
+    }
+  }
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const float* d = &directions.xyz()[3 * i];
+    if (d[0] == 0 && d[1] == 0 && d[2] == 0) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("directions[", i, "] = (0, 0, 0): expected a direction of any length but 0"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<engine::SurfaceRequest> read_surface(const v1::CastRaysRequest& request, const blobtree::Tape& tape,
+                                                    const Limits& limits) {
+  engine::SurfaceRequest r{.max_cells = limits.max_mesh_cells};
+  ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request.bounds_min(), request.bounds_max()));
+  ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
+  ISOFIELD_RETURN_IF_ERROR(check_bounded(tape, r.bounds, r.iso));
+  if (request.has_cell_size()) {
+    ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_length("cell_size", request.cell_size()));
+  }
+  return r;
+}
+
+// Turns places in the scene's nodes into places in the list of names that it makes.
+void set_names(const v1::Scene& scene, std::vector<std::uint32_t>& nodes, v1::CastRaysResponse& response) {
+  std::vector<std::uint32_t> hit = nodes;
+  std::sort(hit.begin(), hit.end());
+  hit.erase(std::unique(hit.begin(), hit.end()), hit.end());
+  if (!hit.empty() && hit.back() == engine::RayHits::kNoNode) hit.pop_back();
+  for (const std::uint32_t node : hit) {
+    const std::string& name = scene.nodes(static_cast<int>(node)).name();
+    response.add_names(name.empty() ? absl::StrCat("#", node) : name);
+  }
+  for (std::uint32_t& node : nodes) {
+    if (node == engine::RayHits::kNoNode) continue;
+    node = static_cast<std::uint32_t>(std::lower_bound(hit.begin(), hit.end(), node) - hit.begin());
+  }
+}
+
+absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const Limits& limits) {
+  engine::Plane plane;
+  ISOFIELD_ASSIGN_OR_RETURN(plane.origin, read_vector("origin", request.origin()));
+  ISOFIELD_ASSIGN_OR_RETURN(const blobtree::dvec3 u, read_vector("u", request.u()));
+  ISOFIELD_ASSIGN_OR_RETURN(const blobtree::dvec3 v, read_vector("v", request.v()));
+  for (const auto& [name, axis] : {std::pair{"u", u}, std::pair{"v", v}}) {
+    if (!(length(axis) >= blobtree::kMinLength)) {
+      return absl::InvalidArgumentError(absl::StrCat(name, " = (", axis.x, ", ", axis.y, ", ", axis.z,
+                                                     "): expected a length of at least ", blobtree::kMinLength));
+    }
+  }
+  plane.u = u * (1 / length(u));
+  const blobtree::dvec3 unit = v * (1 / length(v));
+  const blobtree::dvec3 rest = unit - plane.u * dot(plane.u, unit);
+  if (!(length(rest) >= 1e-6)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("v = (", v.x, ", ", v.y, ", ", v.z, "): expected a direction that is not parallel to u"));
+  }
+  plane.v = rest * (1 / length(rest));
+  const Numbers& spacing = request.spacing();
+  if (spacing.size() != 1 && spacing.size() != 2) {
+    return absl::InvalidArgumentError(absl::StrCat("spacing holds ", spacing.size(), " numbers: expected 1 or 2"));
+  }
+  if (request.counts_size() != 2) {
+    return absl::InvalidArgumentError(absl::StrCat("counts holds ", request.counts_size(), " numbers: expected 2"));
+  }
+  unsigned __int128 points = 1;
+  for (int i = 0; i < 2; ++i) {
+    ISOFIELD_ASSIGN_OR_RETURN(plane.spacing[i], read_length("spacing", spacing[i % spacing.size()]));
+    const std::uint64_t count = request.counts(i);
+    if (count < 1)
+      return absl::InvalidArgumentError(absl::StrCat("counts[", i, "] = 0: expected a count of at least 1"));
+    points *= count;
+    plane.counts[i] = static_cast<std::uint32_t>(count);
+  }
+  if (points > limits.max_points_per_message) {
+    return absl::ResourceExhaustedError(absl::StrCat("counts = [", request.counts(0), ", ", request.counts(1),
+                                                     "]: at most ", limits.max_points_per_message,
+                                                     " points are admitted; ask for parts of it"));
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (!(plane.counts[i] * plane.spacing[i] <= blobtree::kMaxCoordinate)) {
+      return absl::InvalidArgumentError(absl::StrCat(
+          "spacing = ", plane.spacing[i], ": expected a plane of a length of at most ", blobtree::kMaxCoordinate));
+    }
+  }
+  if (request.levels_size() > kMaxLevels) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("levels holds ", request.levels_size(), " numbers: expected at most ", kMaxLevels));
+  }
+  for (int i = 0; i < request.levels_size(); ++i) {
+    if (!std::isfinite(static_cast<float>(request.levels(i)))) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("levels[", i, "] = ", request.levels(i), ": expected a finite float32"));
+    }
+  }
+  return plane;
+}
+
+}  // namespace
+
+absl::Status SurfaceService::cast(const grpc::ServerContext& context, const v1::CastRaysRequest& request,
+                                  v1::CastRaysResponse& response) {
+  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
+  const std::uint64_t most = limits_.max_points_per_message;
+  ISOFIELD_ASSIGN_OR_RETURN(const PointArray origins,
+                            PointArray::read(request.origins(), most, {"origins", "rays", "send them in parts"}));
+  ISOFIELD_ASSIGN_OR_RETURN(const PointArray directions,
+                            PointArray::read(request.directions(), most, {"directions", "rays", "send them in parts"}));
+  ISOFIELD_RETURN_IF_ERROR(check_rays(origins, directions));
+  engine::RayRequest r{.origins = origins.xyz(), .directions = directions.xyz()};
+  ISOFIELD_ASSIGN_OR_RETURN(r.surface, read_surface(request, leased.scene->tape(), limits_));
+  if (request.has_max_distance()) {
+    if (!(request.max_distance() > 0)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("max_distance = ", request.max_distance(), ": expected a length > 0, or none"));
+    }
+    r.max_distance = request.max_distance();
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(engine::RayHits hits,
+                            engine_.rays().cast(leased.scene, r, [&] { return context.IsCancelled(); }));
+  set_names(*leased.message, hits.nodes, response);
+  set_rows(std::span<const float>(hits.distances), 1, *response.mutable_distances());
+  set_rows(std::span<const float>(hits.positions), 3, *response.mutable_positions());
+  set_rows(std::span<const float>(hits.normals), 3, *response.mutable_normals());
+  set_rows(std::span<const std::uint32_t>(hits.nodes), 1, *response.mutable_nodes());
+  set_rows(std::span<const std::uint8_t>(hits.inside), 1, *response.mutable_inside());
+  response.set_cell_size(hits.cell_size);
+  response.set_scene_version(leased.version);
+  return absl::OkStatus();
+}
+
+absl::Status SurfaceService::project(const grpc::ServerContext& context, const v1::ProjectPointsRequest& request,
+                                     v1::ProjectPointsResponse& response) {
+  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
+  ISOFIELD_ASSIGN_OR_RETURN(const PointArray points,
+                            PointArray::read(request.points(), limits_.max_points_per_message, kPoints));
+  const blobtree::Tape& tape = leased.scene->tape();
+  engine::ProjectionRequest r{.points = points.xyz()};
+  ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
+  if (request.has_tolerance()) {
+    ISOFIELD_ASSIGN_OR_RETURN(r.tolerance, read_length("tolerance", request.tolerance()));
+  } else if (const std::optional<double> edge = longest_support_edge(tape)) {
+    r.tolerance = kProjectionTolerance * *edge;
+  } else {
+    return absl::InvalidArgumentError(
+        "tolerance: expected, since the operators of this scene do not bound its field by themselves");
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::Projections found,
+                            engine_.projector().project(*leased.scene, r, [&] { return context.IsCancelled(); }));
+  set_rows(std::span(found.positions), 3, *response.mutable_positions());
+  set_rows(std::span(found.normals), 3, *response.mutable_normals());
+  set_rows(std::span(found.converged), 1, *response.mutable_converged());
+  set_rows(std::span(found.residuals), 1, *response.mutable_residuals());
+  return absl::OkStatus();
+}
+
+absl::Status SurfaceService::contains(const grpc::ServerContext& context, const v1::ContainsRequest& request,
+                                      v1::ContainsResponse& response) {
+  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
+  ISOFIELD_ASSIGN_OR_RETURN(const PointArray points,
+                            PointArray::read(request.points(), limits_.max_points_per_message, kPoints));
+  engine::IsoLevel level{.law = leased.scene->tape().law};
+  ISOFIELD_ASSIGN_OR_RETURN(level.iso, read_iso(request, level.law));
+  std::vector<float> values(points.size());
+  ISOFIELD_RETURN_IF_ERROR(engine_.fields().evaluate(*leased.scene, points.xyz(), engine::Quantity::kValue, values,
+                                                     [&] { return context.IsCancelled(); }));
+  std::vector<std::uint8_t> inside(values.size());
+  std::transform(values.begin(), values.end(), inside.begin(), [&](float f) { return level.excess(f) > 0 ? 1 : 0; });
+  set_rows(std::span<const std::uint8_t>(inside), 1, *response.mutable_inside());
+  return absl::OkStatus();
+}
+
+absl::Status SurfaceService::slice(const grpc::ServerContext& context, const v1::SliceRequest& request,
+                                   v1::SliceResponse& response) {
+  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::Plane plane, read_plane(request, limits_));
+  std::vector<double> levels(request.levels().begin(), request.levels().end());
+  if (levels.empty()) {
+    ISOFIELD_ASSIGN_OR_RETURN(const double surface, read_iso(std::optional<double>(), leased.scene->tape().law));
+    levels.push_back(surface);
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::Slice slice, engine::slice(engine_.fields(), *leased.scene, plane, levels,
+                                                                     [&] { return context.IsCancelled(); }));
+  set_rows(std::span(slice.values), plane.counts[0], *response.mutable_values());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    v1::LevelCurves& curves = *response.add_curves();
+    curves.set_level(levels[i]);
+    set_rows(std::span(slice.lines[i].points), 2, *curves.mutable_points());
+    curves.mutable_starts()->set_dtype(v1::Tensor::UINT32);
+    curves.mutable_starts()->add_shape(slice.lines[i].starts.size());
+    curves.mutable_starts()->set_data(slice.lines[i].starts.data(), 4 * slice.lines[i].starts.size());
+  }
+  set_vector(plane.u, *response.mutable_u());
+  set_vector(plane.v, *response.mutable_v());
+  return absl::OkStatus();
+}
+
+grpc::Status SurfaceService::CastRays(grpc::ServerContext* context, const v1::CastRaysRequest* request,
+                                      v1::CastRaysResponse* response) {
+  return to_grpc(cast(*context, *request, *response));
+}
+
+grpc::Status SurfaceService::ProjectPoints(grpc::ServerContext* context, const v1::ProjectPointsRequest* request,
+                                           v1::ProjectPointsResponse* response) {
+  return to_grpc(project(*context, *request, *response));
+}
+
+grpc::Status SurfaceService::Contains(grpc::ServerContext* context, const v1::ContainsRequest* request,
+                                      v1::ContainsResponse* response) {
+  return to_grpc(contains(*context, *request, *response));
+}
+
+grpc::Status SurfaceService::Slice(grpc::ServerContext* context, const v1::SliceRequest* request,
+                                   v1::SliceResponse* response) {
+  return to_grpc(slice(*context, *request, *response));
+}
+
+}  // namespace isofield::rpc
