@@ -133,10 +133,10 @@ absl::Status run(const Config& config, const std::string& version) {
   rpc::MeshService mesh_service(scenes, *engine, config.limits);
   rpc::SurfaceService surface_service(scenes, *engine, config.limits);
   rpc::InfoService info_service(operators, *engine, config.limits, version);
-  ISOFIELD_ASSIGN_OR_RETURN(const Running running,
-                            start_server(config, {&scene_service, &operator_service, &field_service, &mesh_service,
-                                                  &surface_service, &info_service},
-                                         field_service));
+  ISOFIELD_ASSIGN_OR_RETURN(const Running running, start_server(config,
+                                                                {&scene_service, &operator_service, &field_service,
+                                                                 &mesh_service, &surface_service, &info_service},
+                                                                field_service));
 
   int signal = 0;
   sigwait(&signals, &signal);

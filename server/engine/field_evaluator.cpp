@@ -6,6 +6,7 @@
 #include "blobtree/point_bins.h"
 #include "engine/session.h"
 #include "engine/status_macros.h"
+#include "engine/tape_windows.h"
 
 namespace isofield::engine {
 namespace {
@@ -31,20 +32,30 @@ std::vector<PointJob> point_jobs(const blobtree::PointBins& bins) {
 // 0.07 s of gradient blends on two cores.
 constexpr std::uint64_t kSubmissionWork = 1u << 21;
 
-// Calls dispatch(first, count) for pieces of `count` workgroups; in between the work so far is waited for.
+// Calls dispatch(first, count, window) for runs of workgroups whose tapes lie in one window, `windows` says in which;
+// after every kSubmissionWork the work so far is waited for.
 template <class Work, class Dispatch>
-absl::Status submit_in_pieces(Session& session, std::size_t count, const FieldEvaluator::Cancelled& cancelled,
-                              const Work& work_of, const Dispatch& dispatch) {
-  for (std::size_t first = 0, end = 0; first < count; first = end) {
-    if (first > 0) ISOFIELD_RETURN_IF_ERROR(session.flush());
+absl::Status submit_in_pieces(Session& session, std::span<const std::uint32_t> windows,
+                              const FieldEvaluator::Cancelled& cancelled, const Work& work_of,
+                              const Dispatch& dispatch) {
+  std::uint64_t work = 0;
+  for (std::size_t first = 0, end = 0; first < windows.size(); first = end) {
+    if (work >= kSubmissionWork) {
+      ISOFIELD_RETURN_IF_ERROR(session.flush());
+      work = 0;
+    }
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
-    std::uint64_t work = 0;
-    while (end < count && end - first < gpu::kMaxGroups && (end == first || work < kSubmissionWork)) {
+    while (end < windows.size() && windows[end] == windows[first] && end - first < gpu::kMaxGroups &&
+           (end == first || work < kSubmissionWork)) {
       work += work_of(end++);
     }
-    ISOFIELD_RETURN_IF_ERROR(dispatch(first, static_cast<std::uint32_t>(end - first)));
+    ISOFIELD_RETURN_IF_ERROR(dispatch(first, static_cast<std::uint32_t>(end - first), windows[first]));
   }
   return absl::OkStatus();
+}
+
+const shaders::Spirv& points_shader(Quantity quantity) {
+  return quantity == Quantity::kValue ? shaders::kPointsValue : shaders::kPointsGradient;
 }
 
 struct GridConstants {
@@ -58,32 +69,31 @@ struct GridConstants {
 
 }  // namespace
 
-absl::StatusOr<const gpu::Pipeline*> FieldEvaluator::points_kernel(const ResidentScene& scene, Quantity quantity) {
-  return kernels_.get(quantity == Quantity::kValue ? shaders::kPointsValue : shaders::kPointsGradient,
-                      KernelKind::of(scene.tape()));
-}
-
 absl::Status FieldEvaluator::prepare(const ResidentScene& scene, Quantity quantity) {
-  return points_kernel(scene, quantity).status();
+  return kernels_.get(points_shader(quantity), TapeWindows(device_, scene, {}).kind(KernelKind::of(scene.tape()), 0))
+      .status();
 }
 
 absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,
                                       std::span<float> out, const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3;
   if (count == 0) return absl::OkStatus();
-  const blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
-  const std::vector<PointJob> jobs = point_jobs(bins);
+  blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
+  std::vector<PointJob> jobs = point_jobs(bins);
   if (jobs.empty()) {
     std::fill(out.begin(), out.end(), 0.0f);
     return absl::OkStatus();
   }
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, points_kernel(scene, quantity));
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer code, session.upload(std::span(bins.code)));
+  TapeWindows tapes(device_, scene, std::move(bins.code));
+  std::vector<std::uint32_t> windows;
+  for (PointJob& job : jobs) windows.push_back(tapes.add(job[0], job[1]));
+  ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer job_buffer, session.upload(std::span(jobs)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer order, session.upload(std::span(bins.order)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer points, session.upload(xyz));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.scratch(out.size_bytes()));
+  const KernelKind kind = KernelKind::of(scene.tape());
   // Points that were culled away have no job, and the field 0.
   std::uint64_t covered = 0;
   for (const blobtree::PointGroup& g : bins.groups) covered += g.count;
@@ -92,11 +102,13 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
     session.commands().barrier();
   }
   ISOFIELD_RETURN_IF_ERROR(submit_in_pieces(
-      session, jobs.size(), cancelled, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * jobs[i][3]; },
-      [&](std::size_t first, std::uint32_t count) {
+      session, windows, cancelled, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * jobs[i][3]; },
+      [&](std::size_t first, std::uint32_t count, std::uint32_t window) -> absl::Status {
         const std::array<std::uint32_t, 2> constants{static_cast<std::uint32_t>(first), bins.order.empty() ? 0u : 1u};
+        ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
+                                  kernels_.get(points_shader(quantity), tapes.kind(kind, window)));
         return session.commands().dispatch(
-            *kernel, scene.bindings(code, {{4, &job_buffer}, {5, &order}, {6, &points}, {7, &results}}), constants,
+            *kernel, tapes.bindings(window, {{4, &job_buffer}, {5, &order}, {6, &points}, {7, &results}}), constants,
             count);
       }));
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
@@ -119,11 +131,12 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
     std::fill(out.begin(), out.end(), 0.0f);
     return absl::OkStatus();
   }
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
-                            kernels_.get(quantity == Quantity::kValue ? shaders::kGridValue : shaders::kGridGradient,
-                                         KernelKind::of(scene.tape())));
+  const KernelKind kind = KernelKind::of(scene.tape());
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer code, session.upload(std::span(bricks.code)));
+  TapeWindows tapes(device_, scene, std::move(bricks.code));
+  std::vector<std::uint32_t> windows;
+  for (Brick& b : wanted) windows.push_back(tapes.add(b.tape_begin, b.tape_count));
+  ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer brick_buffer, session.upload(std::span(wanted)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.scratch(out.size_bytes()));
   session.commands().fill_zero(results);
@@ -138,10 +151,14 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
                           layers};
   constexpr std::uint64_t kPoints = blobtree::kCellsPerBrick;
   ISOFIELD_RETURN_IF_ERROR(submit_in_pieces(
-      session, wanted.size(), cancelled, [&](std::size_t i) { return wanted[i].tape_count * kPoints; },
-      [&](std::size_t first, std::uint32_t count) {
+      session, windows, cancelled, [&](std::size_t i) { return wanted[i].tape_count * kPoints; },
+      [&](std::size_t first, std::uint32_t count, std::uint32_t window) -> absl::Status {
         constants.first_brick = static_cast<std::uint32_t>(first);
-        return session.commands().dispatch(*kernel, scene.bindings(code, {{4, &brick_buffer}, {7, &results}}),
+        ISOFIELD_ASSIGN_OR_RETURN(
+            const gpu::Pipeline* kernel,
+            kernels_.get(quantity == Quantity::kValue ? shaders::kGridValue : shaders::kGridGradient,
+                         tapes.kind(kind, window)));
+        return session.commands().dispatch(*kernel, tapes.bindings(window, {{4, &brick_buffer}, {7, &results}}),
                                            constants, count);
       }));
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));

@@ -44,8 +44,6 @@ class FieldEvaluator {
                                Quantity quantity, std::span<float> out, const Cancelled& cancelled = {});
 
  private:
-  absl::StatusOr<const gpu::Pipeline*> points_kernel(const ResidentScene& scene, Quantity quantity);
-
   gpu::Device& device_;
   KernelCache& kernels_;
 };
