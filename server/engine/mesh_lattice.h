@@ -3,6 +3,9 @@
 
 #include <absl/status/statusor.h>
 
+#include <array>
+#include <cstddef>
+
 #include "blobtree/lattice.h"
 #include "engine/mesher.h"
 
@@ -30,7 +33,9 @@ struct SurfaceBricks {
 absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
                                              std::uint64_t max_bricks, const std::function<bool()>& cancelled);
 
-// For each brick the places of the nine neighbours that shaders/lib/mesh_neighbours.glsl names, or ~0.
+// For each brick the places of the twelve neighbours that shaders/lib/mesh_neighbours.glsl names, or ~0.
+inline constexpr std::size_t kNeighbours = 12;
+inline constexpr std::array<std::size_t, 6> kNeighboursAbove{1, 3, 5, 9, 10, 11};
 std::vector<std::uint32_t> brick_neighbours(const std::vector<blobtree::Brick>& bricks);
 
 }  // namespace isofield::engine

@@ -6,7 +6,10 @@
 #include <array>
 #include <utility>
 
+#include "engine/mesh_constants.h"
+#include "engine/mesh_creases.h"
 #include "engine/mesh_lattice.h"
+#include "engine/mesh_triangles.h"
 #include "engine/session.h"
 #include "engine/status_macros.h"
 #include "engine/surface_cases.h"
@@ -26,26 +29,8 @@ constexpr std::uint32_t kCorners = kEdgeCorners * kEdgeCorners * kEdgeCorners;
 // it.
 constexpr std::uint32_t kSlab = 16'384;
 constexpr std::uint64_t kSlabInstructions = 1u << 18;
-// Quads of one submission and one output buffer.
-constexpr std::uint32_t kQuadSlab = 1u << 21;
-constexpr std::uint32_t kLocalSize = 64;
-
-// Mirrors shaders/lib/mesh_constants.glsl.
-struct Constants {
-  float origin[3];
-  float cell;
-  std::uint32_t cells[4];
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
-  float iso;
-  std::uint32_t flags;  // 1: capped, 2: a signed field
-};
-
-using Pair = std::array<std::uint32_t, 2>;
-
-std::uint32_t groups_of(std::uint64_t invocations) {
-  return static_cast<std::uint32_t>((invocations + kLocalSize - 1) / kLocalSize);
-}
+using Constants = MeshConstants;
+using Pair = MeshStart;
 
 // The state of one request on its way through the passes.
 class Run {
@@ -64,7 +49,9 @@ class Run {
     ISOFIELD_RETURN_IF_ERROR(connect());
     if (starts_.back()[0] == 0) return std::move(mesh_);
     ISOFIELD_RETURN_IF_ERROR(list_elements());
+    ISOFIELD_RETURN_IF_ERROR(find_crossings());
     ISOFIELD_RETURN_IF_ERROR(place_vertices());
+    ISOFIELD_RETURN_IF_ERROR(settle_vertices());
     ISOFIELD_RETURN_IF_ERROR(make_triangles());
     return std::move(mesh_);
   }
@@ -97,18 +84,20 @@ class Run {
                   0,
                   0,
                   static_cast<float>(is_signed ? -request_.iso : request_.iso),
-                  (request_.bounds ? 1u : 0u) | (is_signed ? 2u : 0u)};
+                  (request_.bounds ? 1u : 0u) | (is_signed ? 2u : 0u),
+                  static_cast<float>(request_.tolerance),
+                  static_cast<std::uint32_t>(list_.bricks.size())};
     return absl::OkStatus();
   }
 
   absl::Status upload_bricks() {
     std::vector<std::array<std::uint32_t, 4>> packed;
     for (const SurfaceCase& c : surface_cases()) packed.push_back(c.packed());
-    const std::vector<std::uint32_t> neighbours = brick_neighbours(list_.bricks);
+    brick_neighbours_ = brick_neighbours(list_.bricks);
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
     ISOFIELD_ASSIGN_OR_RETURN(bricks_, session.upload(std::span(list_.bricks)));
     ISOFIELD_ASSIGN_OR_RETURN(code_, session.upload(std::span(list_.code)));
-    ISOFIELD_ASSIGN_OR_RETURN(neighbours_, session.upload(std::span(neighbours)));
+    ISOFIELD_ASSIGN_OR_RETURN(neighbours_, session.upload(std::span(brick_neighbours_)));
     ISOFIELD_ASSIGN_OR_RETURN(surface_cases_, session.upload(std::span(packed)));
     ISOFIELD_ASSIGN_OR_RETURN(cases_, session.scratch(list_.bricks.size() * kCells));
     return session.run();
@@ -169,7 +158,7 @@ class Run {
       constants.first = first;
       constants.count = count;
       ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*classify, {{4, &bricks_}, {5, &samples}, {6, &cases_}},
-                                                           constants, groups_of(std::uint64_t{count} * kCells / 4)));
+                                                           constants, mesh_groups(std::uint64_t{count} * kCells / 4)));
       ISOFIELD_RETURN_IF_ERROR(session.run());
       slabs_.push_back({first, count, std::move(samples)});
     }
@@ -189,7 +178,7 @@ class Run {
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
         *kernel,
         {{4, &bricks_}, {5, &surface_cases_}, {6, &cases_}, {7, &neighbours_}, {8, &cells_}, {9, &count_buffer}},
-        constants, groups_of(total)));
+        constants, mesh_groups(total)));
     ISOFIELD_RETURN_IF_ERROR(session.download(count_buffer, std::span(counts)));
     ISOFIELD_RETURN_IF_ERROR(session.run());
     starts_.assign(1, {0, 0});
@@ -222,53 +211,117 @@ class Run {
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
         *kernel,
         {{4, &bricks_}, {5, &surface_cases_}, {6, &cells_}, {7, &starts_buffer_}, {8, &vertex_list_}, {9, &quad_list_}},
-        constants, groups_of(total)));
+        constants, mesh_groups(total)));
+    return session.run();
+  }
+
+  // Crossings of all slabs before any vertex: a vertex takes them from its neighbours' bricks too.
+  absl::Status find_crossings() {
+    kinds_ = brick_kinds(scene_.tape(), list_, brick_neighbours_);
+    ISOFIELD_ASSIGN_OR_RETURN(crossings_,
+                              Buffer::create(device_, std::size_t{12} * starts_.back()[1], Buffer::Use::kDevice));
+    for (std::size_t s = 0; s < slabs_.size(); ++s) {
+      ISOFIELD_RETURN_IF_ERROR(check(0.65 + 0.1 * s / slabs_.size()));
+      ISOFIELD_RETURN_IF_ERROR(find_crossings(slabs_[s], [&](std::uint32_t b) {
+        return (kinds_[b] & kKnowsCrossings) != 0 && starts_[b + 1][1] > starts_[b][1];
+      }));
+    }
+    return absl::OkStatus();
+  }
+
+  template <class Wanted>
+  absl::Status find_crossings(const Slab& slab, Wanted is_wanted) {
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    std::vector<Buffer> keep;
+    keep.reserve(2);
+    ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshCrossings, slab.first, slab.count, is_wanted, keep,
+                                        [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
+                                          return session.commands().dispatch(
+                                              kernel,
+                                              scene_.bindings(code_, {{4, &bricks_},
+                                                                      {5, &jobs},
+                                                                      {6, &slab.samples},
+                                                                      {8, &starts_buffer_},
+                                                                      {9, &quad_list_},
+                                                                      {10, &crossings_}}),
+                                              constants_, groups);
+                                        }));
     return session.run();
   }
 
   absl::Status place_vertices() {
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshPlace));
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    ISOFIELD_ASSIGN_OR_RETURN(positions_, session.scratch(std::size_t{12} * starts_.back()[0]));
+    ISOFIELD_ASSIGN_OR_RETURN(kinds_buffer_, session.upload(std::span(kinds_)));
+    for (const Slab& slab : slabs_) {
+      Constants constants = constants_;
+      constants.first = slab.first;
+      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel,
+                                                           {{4, &bricks_},
+                                                            {5, &surface_cases_},
+                                                            {6, &cells_},
+                                                            {7, &neighbours_},
+                                                            {8, &starts_buffer_},
+                                                            {9, &vertex_list_},
+                                                            {10, &crossings_},
+                                                            {11, &positions_},
+                                                            {12, &kinds_buffer_},
+                                                            {13, &slab.samples}},
+                                                           constants, slab.count));
+    }
+    ISOFIELD_RETURN_IF_ERROR(session.download(kinds_buffer_, std::span(kinds_)));
+    return session.run();
+  }
+
+  // Onto the surface: vertices on creases along all sides of these, then all that are not there yet.
+  absl::Status settle_vertices() {
     const std::size_t floats = std::size_t{3} * starts_.back()[0];
     mesh_.positions.resize(floats);
     if (request_.with_normals) mesh_.normals.resize(floats);
     const auto has_vertices = [&](std::uint32_t b) { return starts_[b + 1][0] > starts_[b][0]; };
+    const auto has_creases = [&](std::uint32_t b) { return (kinds_[b] & kHasCreases) != 0; };
     Buffer normals;
     for (std::size_t s = 0; s < slabs_.size(); ++s) {
-      ISOFIELD_RETURN_IF_ERROR(check(0.65 + 0.3 * s / slabs_.size()));
+      ISOFIELD_RETURN_IF_ERROR(check(0.75 + 0.2 * s / slabs_.size()));
       const Slab& slab = slabs_[s];
       ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-      if (s == 0) {
-        ISOFIELD_ASSIGN_OR_RETURN(positions_, session.scratch(4 * floats));
-        if (request_.with_normals) {
-          ISOFIELD_ASSIGN_OR_RETURN(normals, session.scratch(4 * floats));
-        }
+      if (s == 0 && request_.with_normals) {
+        ISOFIELD_ASSIGN_OR_RETURN(normals, session.scratch(4 * floats));
       }
       std::vector<Buffer> keep;
-      keep.reserve(4);
+      keep.reserve(6);
+      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshCreases, slab.first, slab.count, has_creases, keep,
+                                          [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
+                                            return session.commands().dispatch(
+                                                kernel,
+                                                scene_.bindings(code_, {{4, &bricks_},
+                                                                        {5, &jobs},
+                                                                        {6, &cells_},
+                                                                        {7, &neighbours_},
+                                                                        {8, &starts_buffer_},
+                                                                        {9, &vertex_list_},
+                                                                        {10, &crossings_},
+                                                                        {11, &positions_}}),
+                                                constants_, groups);
+                                          }));
+      session.commands().barrier();
       ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshVertices, slab.first, slab.count, has_vertices, keep,
                                           [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
                                             return session.commands().dispatch(
                                                 kernel,
                                                 scene_.bindings(code_, {{4, &bricks_},
                                                                         {5, &jobs},
-                                                                        {6, &slab.samples},
+                                                                        {6, &cells_},
                                                                         {7, &surface_cases_},
-                                                                        {8, &cells_},
-                                                                        {9, &starts_buffer_},
-                                                                        {10, &vertex_list_},
+                                                                        {8, &starts_buffer_},
+                                                                        {9, &vertex_list_},
                                                                         {11, &positions_}}),
                                                 constants_, groups);
                                           }));
       if (request_.with_normals) {
         session.commands().barrier();
-        ISOFIELD_RETURN_IF_ERROR(run_bricks(
-            session, shaders::kMeshNormals, slab.first, slab.count, has_vertices, keep,
-            [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
-              return session.commands().dispatch(
-                  kernel,
-                  scene_.bindings(code_,
-                                  {{4, &bricks_}, {5, &jobs}, {6, &starts_buffer_}, {7, &positions_}, {8, &normals}}),
-                  constants_, groups);
-            }));
+        ISOFIELD_RETURN_IF_ERROR(find_normals(session, slab, has_vertices, starts_buffer_, positions_, normals, keep));
       }
       if (s + 1 == slabs_.size()) {
         ISOFIELD_RETURN_IF_ERROR(session.download(positions_, std::span(mesh_.positions)));
@@ -278,37 +331,63 @@ class Run {
       }
       ISOFIELD_RETURN_IF_ERROR(session.run());
     }
-    slabs_.clear();
     return absl::OkStatus();
   }
 
+  // Of the positions of a slab's bricks, which start where `starts` says.
+  template <class Wanted>
+  absl::Status find_normals(Session& session, const Slab& slab, Wanted is_wanted, const Buffer& starts,
+                            const Buffer& positions, const Buffer& normals, std::vector<Buffer>& keep) {
+    return run_bricks(
+        session, shaders::kMeshNormals, slab.first, slab.count, is_wanted, keep,
+        [&](const gpu::Pipeline& kernel, const Buffer& jobs, std::uint32_t groups) {
+          return session.commands().dispatch(
+              kernel, scene_.bindings(code_, {{4, &bricks_}, {5, &jobs}, {6, &starts}, {7, &positions}, {8, &normals}}),
+              constants_, groups);
+        });
+  }
+
   absl::Status make_triangles() {
-    const std::uint32_t total = starts_.back()[1];
-    mesh_.triangles.resize(std::size_t{6} * total);
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshTriangles));
-    for (std::uint32_t first = 0; first < total; first += kQuadSlab) {
-      ISOFIELD_RETURN_IF_ERROR(check(0.95 + 0.05 * first / total));
-      const std::uint32_t count = std::min(kQuadSlab, total - first);
+    const QuadCutter::Check checked = [this](double fraction) { return check(fraction); };
+    QuadCutter cutter(device_, kernels_, constants_,
+                      {{4, &bricks_},
+                       {5, &surface_cases_},
+                       {6, &cells_},
+                       {7, &neighbours_},
+                       {8, &starts_buffer_},
+                       {9, &quad_list_},
+                       {10, &crossings_}},
+                      starts_, checked);
+    ISOFIELD_RETURN_IF_ERROR(cutter.cut(positions_, kinds_buffer_));
+    const auto is_unknown = [&](std::uint32_t b) { return (kinds_[b] & kKnowsCrossings) == 0 && cutter.has_fans(b); };
+    for (std::size_t s = 0; s < slabs_.size() && cutter.fans() > 0; ++s) {
+      ISOFIELD_RETURN_IF_ERROR(find_crossings(slabs_[s], is_unknown));
+    }
+    ISOFIELD_ASSIGN_OR_RETURN(const Buffer centres, cutter.make(mesh_));
+    if (cutter.fans() > 0 && request_.with_normals) ISOFIELD_RETURN_IF_ERROR(find_fan_normals(cutter, centres));
+    return check(1);
+  }
+
+  absl::Status find_fan_normals(const QuadCutter& cutter, const Buffer& centres) {
+    const auto has_fans = [&](std::uint32_t b) { return cutter.has_fans(b); };
+    const std::size_t floats = std::size_t{3} * cutter.fans();
+    mesh_.normals.resize(mesh_.normals.size() + floats);
+    Buffer starts, normals;
+    for (std::size_t s = 0; s < slabs_.size(); ++s) {
       ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-      ISOFIELD_ASSIGN_OR_RETURN(const Buffer triangles, session.scratch(std::size_t{24} * count));
-      Constants constants = constants_;
-      constants.first = first;
-      constants.count = count;
-      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel,
-                                                           {{4, &bricks_},
-                                                            {5, &surface_cases_},
-                                                            {6, &cells_},
-                                                            {7, &neighbours_},
-                                                            {8, &starts_buffer_},
-                                                            {9, &quad_list_},
-                                                            {10, &positions_},
-                                                            {11, &triangles}},
-                                                           constants, groups_of(count)));
-      ISOFIELD_RETURN_IF_ERROR(session.download(
-          triangles, std::span(mesh_.triangles).subspan(std::size_t{6} * first, std::size_t{6} * count)));
+      if (s == 0) {
+        ISOFIELD_ASSIGN_OR_RETURN(starts, session.upload(std::span(cutter.fan_starts())));
+        ISOFIELD_ASSIGN_OR_RETURN(normals, session.scratch(4 * floats));
+      }
+      std::vector<Buffer> keep;
+      keep.reserve(2);
+      ISOFIELD_RETURN_IF_ERROR(find_normals(session, slabs_[s], has_fans, starts, centres, normals, keep));
+      if (s + 1 == slabs_.size()) {
+        ISOFIELD_RETURN_IF_ERROR(session.download(normals, std::span(mesh_.normals).last(floats)));
+      }
       ISOFIELD_RETURN_IF_ERROR(session.run());
     }
-    return check(1);
+    return absl::OkStatus();
   }
 
   gpu::Device& device_;
@@ -321,8 +400,9 @@ class Run {
   Constants constants_{};
   std::vector<Slab> slabs_;
   std::vector<Pair> starts_;  // first vertex and first quad of each brick, and the totals
+  std::vector<std::uint32_t> brick_neighbours_, kinds_;
   Buffer bricks_, code_, neighbours_, surface_cases_, cases_, cells_, starts_buffer_, vertex_list_, quad_list_,
-      positions_;
+      crossings_, kinds_buffer_, positions_;
   Mesh mesh_;
 };
 

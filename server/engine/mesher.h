@@ -1,5 +1,6 @@
-// Closed triangle meshes of a scene's surface, made on the device: dual marching cubes on the bricks that the surface
-// may cross, so that memory and time follow the surface and not the box.
+// Closed triangle meshes of a scene's surface, made on the device: dual contouring, with one vertex a patch of a cell, on
+// the bricks that the surface may cross, so that memory and time follow the surface and not the box. Creases come out
+// sharp where the crease turns by 25 degrees or more and crosses the cell that its vertex lies in.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -21,6 +22,7 @@ struct MeshRequest {
   std::optional<blobtree::Box> bounds;
   double iso = 0.5;  // within ]0, 1[
   bool with_normals = true;
+  double tolerance = 1e-3;  // of vertices' distances from the surface, as linearised, in cells; > 0
   std::uint64_t max_cells = 1u << 25;
 };
 

@@ -1,0 +1,44 @@
+// The four vertices around an edge that the surface crosses.
+#ifndef MESH_QUADS_GLSL
+#define MESH_QUADS_GLSL
+
+#include "mesh_crossings.glsl"
+
+layout(std430, binding = 5) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
+layout(std430, binding = 9) readonly buffer Quads { uvec2 quad_list[]; };
+
+// How a quad becomes triangles.
+const uint CUT_02 = 0u;  // along the diagonal of the vertices 0 and 2
+const uint CUT_13 = 1u;
+const uint CUT_FAN = 2u;  // four triangles around the crossing of its edge, which becomes a vertex
+
+struct Quad {
+  uint brick;
+  uvec3 at;  // the cell in the brick that has its edge at its low corner
+  uint axis;
+  bool inside_low;
+  uvec4 vertices;  // counter-clockwise about the axis, from the cell at `at`
+};
+
+// The vertex of the patch that holds the quad's edge in the cell at offset -(du, dv) from the edge.
+uint quad_vertex(uint b, uvec3 at, uint axis, uint du, uint dv) {
+  ivec3 where = ivec3(at) - int(du) * ivec3(axis_vector((axis + 1u) % 3u)) - int(dv) * ivec3(axis_vector((axis + 2u) % 3u));
+  CellRef c = cell_ref(b, where);
+  if (c.brick == NO_BRICK) return 0u;  // unreachable: a cell with a crossing edge is never culled
+  uint cell = cells_in[c.brick * CELLS_PER_BRICK + c.cell];
+  return starts[c.brick].x + cell_vertex(cell) + case_patch_of_edge(surface_cases[cell_case(cell)], 4u * axis + du + 2u * dv);
+}
+
+Quad quad(uint q) {
+  uint b = quad_list[q].x, code = quad_list[q].y;
+  uvec3 at = cell_in_brick(code & 0xffu);
+  uint axis = code >> 8u & 3u;
+  uvec4 v = uvec4(quad_vertex(b, at, axis, 0u, 0u), quad_vertex(b, at, axis, 1u, 0u),
+                  quad_vertex(b, at, axis, 1u, 1u), quad_vertex(b, at, axis, 0u, 1u));
+  return Quad(b, at, axis, (code >> 10u) != 0u, v);
+}
+
+// Where the surface crosses the quad's edge, from its low end, in cells.
+float crossing_place(uint q) { return length(vec3(crossings[3u * q], crossings[3u * q + 1u], crossings[3u * q + 2u])) - 1.0; }
+
+#endif
