@@ -1,6 +1,6 @@
-// Closed triangle meshes of a scene's surface, made on the device: dual contouring, with one vertex a patch of a cell, on
-// the bricks that the surface may cross, so that memory and time follow the surface and not the box. Creases come out
-// sharp where the crease turns by 25 degrees or more and crosses the cell that its vertex lies in.
+// Closed triangle meshes of a scene's surface, made on the device: dual contouring, with one vertex a patch of a cell,
+// on the bricks that the surface may cross, so that memory and time follow the surface and not the box. Creases come
+// out sharp where the crease turns by 25 degrees or more and crosses the cell that its vertex lies in.
 #pragma once
 
 #include <absl/status/statusor.h>
