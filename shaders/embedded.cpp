@@ -11,7 +11,11 @@ namespace {
 #include "mesh_classify.inc"
 #include "mesh_connect.inc"
 #include "mesh_list.inc"
+#include "mesh_crossings.inc"
+#include "mesh_place.inc"
+#include "mesh_creases.inc"
 #include "mesh_vertices.inc"
+#include "mesh_quads.inc"
 #include "mesh_normals.inc"
 #include "mesh_triangles.inc"
 #include "operator_eval.inc"
@@ -33,7 +37,11 @@ const Spirv kMeshSample{mesh_sample};
 const Spirv kMeshClassify{mesh_classify};
 const Spirv kMeshConnect{mesh_connect};
 const Spirv kMeshList{mesh_list};
+const Spirv kMeshCrossings{mesh_crossings};
+const Spirv kMeshPlace{mesh_place};
+const Spirv kMeshCreases{mesh_creases};
 const Spirv kMeshVertices{mesh_vertices};
+const Spirv kMeshQuads{mesh_quads};
 const Spirv kMeshNormals{mesh_normals};
 const Spirv kMeshTriangles{mesh_triangles};
 const Spirv kOperatorEval{operator_eval};

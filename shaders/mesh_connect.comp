@@ -35,10 +35,9 @@ void main() {
           if (opposite == (face ^ 1u) + 1u) cell |= 0x100u;
         }
       }
-      cell |= vertices << 16u;
+      cell |= vertices << 16u | quads << 24u;
       vertices += case_patches(surface_cases[cell_case(cell)]);
-      uint low = inside & 1u;
-      quads += (low ^ (inside >> 1u & 1u)) + (low ^ (inside >> 2u & 1u)) + (low ^ (inside >> 4u & 1u));
+      quads += uint(bitCount(own_crossings(inside)));
     }
     cells_out[b * CELLS_PER_BRICK + c] = cell;
   }

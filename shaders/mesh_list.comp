@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 5) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
 layout(std430, binding = 6) readonly buffer Cells { uint cells_in[]; };
 layout(std430, binding = 7) readonly buffer Starts { uvec2 starts[]; };         // first vertex, first quad of a brick
-layout(std430, binding = 8) writeonly buffer Vertices { uint vertex_list[]; };  // cell | patch << 8
+layout(std430, binding = 8) writeonly buffer Vertices { uint vertex_list[]; };  // mesh_constants.glsl
 layout(std430, binding = 9) writeonly buffer Quads { uvec2 quad_list[]; };      // brick, cell | axis << 8 | inside << 10
 
 void main() {
@@ -23,8 +23,7 @@ void main() {
       uint patches = case_patches(surface_cases[cell_case(cell)]);
       for (uint n = 0u; n < patches; ++n) vertex_list[vertex++] = c | n << 8u;
       for (uint axis = 0u; axis < 3u; ++axis) {
-        uint low = inside & 1u;
-        if (low != (inside >> (1u << axis) & 1u)) quad_list[quad++] = uvec2(b, c | axis << 8u | low << 10u);
+        if ((own_crossings(inside) >> axis & 1u) != 0u) quad_list[quad++] = uvec2(b, c | axis << 8u | (inside & 1u) << 10u);
       }
     }
   }

@@ -18,6 +18,5 @@ void main() {
   uvec3 offset = uvec3(n % BRICK_CORNERS, n / BRICK_CORNERS % BRICK_CORNERS, n / (BRICK_CORNERS * BRICK_CORNERS));
   uvec3 i = b.at * BRICK_CELLS + offset;
   float f = inward() * evaluate(corner_position(i), b.tape_begin, b.tape_count).f;
-  bool is_boundary = any(equal(i, uvec3(0u))) || any(greaterThanEqual(i, cells.xyz));
-  samples[job.y * CORNERS_PER_BRICK + n] = is_capped() && is_boundary ? cap_value() : f;
+  samples[job.y * CORNERS_PER_BRICK + n] = is_cap(i) ? cap_value() : f;
 }

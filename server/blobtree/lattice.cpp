@@ -18,6 +18,8 @@ class Culler {
   Culler(const Tape& tape, const CullRequest& request) : tape_(tape), request_(request), pruner_(tape) {
     for (int a = 0; a < 3; ++a) {
       bricks_[a] = (request.lattice.cells[a] + kBrickCells - 1) / kBrickCells;
+      wanted_.high[a] = request.within ? std::min(request.within->high[a], bricks_[a]) : bricks_[a];
+      wanted_.low[a] = request.within ? request.within->low[a] : 0;
     }
   }
 
@@ -111,11 +113,13 @@ class Culler {
     for (int child = 7; child >= 0; --child) {
       const Cell c{cell.level - 1, 2 * cell.x + (child & 1), 2 * cell.y + (child >> 1 & 1), 2 * cell.z + (child >> 2),
                    level};
-      if (std::uint64_t{c.x} * half < bricks_[0] && std::uint64_t{c.y} * half < bricks_[1] &&
-          std::uint64_t{c.z} * half < bricks_[2]) {
-        stack_.push_back(c);
-      }
+      if (meets(c.x, half, 0) && meets(c.y, half, 1) && meets(c.z, half, 2)) stack_.push_back(c);
     }
+  }
+
+  // Whether the wanted bricks have some along an axis in cell i of so many bricks.
+  bool meets(std::uint32_t i, std::uint32_t bricks, int axis) const {
+    return std::uint64_t{i} * bricks < wanted_.high[axis] && (std::uint64_t{i} + 1) * bricks > wanted_.low[axis];
   }
 
   std::size_t store(std::size_t begin, std::size_t count) {
@@ -131,6 +135,7 @@ class Culler {
   const CullRequest& request_;
   Pruner pruner_;
   std::array<std::uint32_t, 3> bricks_{};
+  BrickBox wanted_;
   std::vector<Instruction> arena_;
   std::vector<Level> levels_;
   std::vector<Cell> stack_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "blobtree/pruner.h"
@@ -40,8 +41,17 @@ enum class Keep {
   kSupport,  // bricks where the field may differ from 0
 };
 
+// Bricks from `low` on and below `high`, along each axis.
+struct BrickBox {
+  std::array<std::uint32_t, 3> low{}, high{};
+
+  bool operator==(const BrickBox&) const = default;
+};
+
 struct CullRequest {
   Lattice lattice;
+  // Only these of its bricks.
+  std::optional<BrickBox> within;
   Keep keep = Keep::kSurface;
   double iso = 0.5;
   // kSurface: what lies at the lattice's boundary counts as outside, so that the surface closes there.

@@ -115,9 +115,9 @@ class EvaluationQueue {
   bool is_led_ = false;  // a thread is at the next submission
   bool is_over_ = false;
   std::uint64_t picks_ = 0;
-  std::uint64_t requests_ = 0, points_ = 0;  // admitted and not yet answered
+  std::uint64_t requests_ = 0, points_ = 0;        // admitted and not yet answered
   double recent_seconds_ = 0, recent_points_ = 0;  // of submissions, the older the less
-  std::thread dispatcher_;                   // last: it uses the others
+  std::thread dispatcher_;                         // last: it uses the others
 };
 
 }  // namespace isofield::engine

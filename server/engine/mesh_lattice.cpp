@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/mesh_part.h"
 #include "engine/status_macros.h"
 
 namespace isofield::engine {
@@ -14,6 +15,7 @@ namespace {
 
 using blobtree::Box;
 using blobtree::Brick;
+using blobtree::BrickBox;
 using blobtree::BrickList;
 using blobtree::CullRequest;
 using blobtree::dvec3;
@@ -23,9 +25,17 @@ double longest_edge(const Box& box) {
   return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
 }
 
+std::optional<BrickBox> with_halo(std::optional<BrickBox> box) {
+  if (!box) return box;
+  for (std::uint32_t& low : box->low) low -= std::min(low, kHaloBricks);
+  for (std::uint32_t& high : box->high) high += std::min(~high, kHaloBricks);
+  return box;
+}
+
 absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshRequest& request, const Lattice& lattice,
                                        std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
   return blobtree::cull(tape, CullRequest{.lattice = lattice,
+                                          .within = with_halo(request.part),
                                           .keep = blobtree::Keep::kSurface,
                                           .iso = request.iso,
                                           .is_capped = request.bounds.has_value(),
@@ -99,9 +109,10 @@ absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshReque
   // Far from the origin float32 tells points apart no better than at that distance: a cell is 4 such steps at least.
   const double reach = std::max({std::abs(bounds.min.x), std::abs(bounds.min.y), std::abs(bounds.min.z),
                                  std::abs(bounds.max.x), std::abs(bounds.max.y), std::abs(bounds.max.z)});
-  if (std::max(longest_edge(bounds), 2 * reach) / cell > kMaxCellsPerAxis - 4) {
+  if (std::max(longest_edge(bounds), 2 * reach) / cell > kMaxCellsPerAxis - 4 - kLatticeAlignment) {
     return absl::ResourceExhaustedError("too many cells along an axis");
   }
+  constexpr double kAlignment = kLatticeAlignment;
   Lattice lattice;
   lattice.spacing = {cell, cell, cell};
   const auto along = [&](double low, double high, double& origin) {
@@ -110,7 +121,7 @@ absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshReque
       return static_cast<std::uint32_t>(std::max(std::ceil((high - low) / cell - 1e-9), 1.0));
     }
     // One cell of room on either side: the outermost corners are outside.
-    origin = (std::floor(low / cell) - 1) * cell;
+    origin = std::floor((low / cell - 1) / kAlignment) * kAlignment * cell;
     return static_cast<std::uint32_t>(std::ceil((high - origin) / cell)) + 1;
   };
   lattice.cells = {along(bounds.min.x, bounds.max.x, lattice.origin.x),
@@ -154,17 +165,27 @@ std::vector<std::uint32_t> brick_neighbours(const std::vector<Brick>& bricks) {
   const auto key = [](std::uint64_t x, std::uint64_t y, std::uint64_t z) {
     return (x + 1) | (y + 1) << 21 | (z + 1) << 42;
   };
-  constexpr std::array<std::array<int, 3>, 9> kSteps{
-      {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, -1, -1}, {-1, 0, -1}, {-1, -1, 0}}};
+  constexpr std::array<std::array<int, 3>, kNeighbours> kSteps{{{-1, 0, 0},
+                                                                {1, 0, 0},
+                                                                {0, -1, 0},
+                                                                {0, 1, 0},
+                                                                {0, 0, -1},
+                                                                {0, 0, 1},
+                                                                {0, -1, -1},
+                                                                {-1, 0, -1},
+                                                                {-1, -1, 0},
+                                                                {0, 1, 1},
+                                                                {1, 0, 1},
+                                                                {1, 1, 0}}};
   absl::flat_hash_map<std::uint64_t, std::uint32_t> places;
   places.reserve(bricks.size());
   for (std::uint32_t i = 0; i < bricks.size(); ++i) places.emplace(key(bricks[i].x, bricks[i].y, bricks[i].z), i);
-  std::vector<std::uint32_t> neighbours(9 * bricks.size(), ~0u);
+  std::vector<std::uint32_t> neighbours(kNeighbours * bricks.size(), ~0u);
   for (std::size_t i = 0; i < bricks.size(); ++i) {
-    for (std::size_t n = 0; n < 9; ++n) {
+    for (std::size_t n = 0; n < kNeighbours; ++n) {
       const auto it =
           places.find(key(bricks[i].x + kSteps[n][0], bricks[i].y + kSteps[n][1], bricks[i].z + kSteps[n][2]));
-      if (it != places.end()) neighbours[9 * i + n] = it->second;
+      if (it != places.end()) neighbours[kNeighbours * i + n] = it->second;
     }
   }
   return neighbours;

@@ -3,6 +3,9 @@
 
 #include <absl/status/statusor.h>
 
+#include <array>
+#include <cstddef>
+
 #include "blobtree/lattice.h"
 #include "engine/mesher.h"
 
@@ -11,8 +14,9 @@ namespace isofield::engine {
 // Cells along an axis: float32 numbers lattice points exactly up to here and beyond.
 inline constexpr std::uint32_t kMaxCellsPerAxis = 1u << 22;
 
-// Derived bounds lie on multiples of the cell size, so that a scene that grows keeps its lattice; stated bounds start
-// the lattice at their corner.
+// Derived bounds begin at a multiple of so many cells, so that a scene that grows a little keeps its lattice; stated
+// bounds start the lattice at their corner.
+inline constexpr std::uint32_t kLatticeAlignment = 32;
 absl::StatusOr<blobtree::Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request);
 
 // A cell size for a request that states none: the thinnest primitive two cells across and the longest edge at least
@@ -30,7 +34,9 @@ struct SurfaceBricks {
 absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
                                              std::uint64_t max_bricks, const std::function<bool()>& cancelled);
 
-// For each brick the places of the nine neighbours that shaders/lib/mesh_neighbours.glsl names, or ~0.
+// For each brick the places of the twelve neighbours that shaders/lib/mesh_neighbours.glsl names, or ~0.
+inline constexpr std::size_t kNeighbours = 12;
+inline constexpr std::array<std::size_t, 6> kNeighboursAbove{1, 3, 5, 9, 10, 11};
 std::vector<std::uint32_t> brick_neighbours(const std::vector<blobtree::Brick>& bricks);
 
 }  // namespace isofield::engine

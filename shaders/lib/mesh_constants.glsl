@@ -14,12 +14,15 @@ layout(push_constant) uniform Constants {
   uint count;
   float iso;       // of a field that is greater inside: of a signed one, its negative's
   uint flags;
+  float tolerance;   // of vertices' distances from the surface, in cells
 };
 
 // Corners on the lattice's boundary count as outside.
 bool is_capped() { return (flags & 1u) != 0u; }
 // 1, or -1 where the field is signed: what makes it greater inside.
 float inward() { return (flags & 2u) != 0u ? -1.0 : 1.0; }
+// Whether corner i of the lattice counts as outside because it lies on its boundary.
+bool is_cap(uvec3 i) { return is_capped() && (any(equal(i, uvec3(0u))) || any(greaterThanEqual(i, cells.xyz))); }
 // What a corner on a capped boundary is taken to have.
 float cap_value() { return (flags & 2u) != 0u ? iso - origin.w : 0.0; }
 
@@ -42,9 +45,29 @@ uint corner_number(uvec3 offset) { return offset.x + 2u * offset.y + 4u * offset
 uint sample_place(uvec3 corner) { return corner.x + BRICK_CORNERS * (corner.y + BRICK_CORNERS * corner.z); }
 
 // A cell as the connecting pass leaves it: bits 0-7 the inside corners, bit 8 whether its ambiguous face is resolved the
-// other way, bits 16 and up the number of its first vertex in the brick.
+// other way, bits 16-23 the number of its first vertex in the brick, bits 24-31 that of its first quad.
 uint cell_case(uint cell) { return cell & 0x1ffu; }
-uint cell_vertex(uint cell) { return cell >> 16u; }
+uint cell_vertex(uint cell) { return cell >> 16u & 0xffu; }
+uint cell_quad(uint cell) { return cell >> 24u; }
+
+// Which of the edges at the low corner of a cell with these inside corners the surface crosses, a bit an axis: a quad each.
+uint own_crossings(uint inside) {
+  uint low = inside & 1u;
+  return (low ^ (inside >> 1u & 1u)) | (low ^ (inside >> 2u & 1u)) << 1u | (low ^ (inside >> 4u & 1u)) << 2u;
+}
+
+// A vertex as listed: bits 0-7 its cell in the brick, 8-9 its patch; bit 10 whether the lattice's boundary cuts it off,
+// bit 11 whether it lies on a crease, and then in bits 12-23 three edges whose crossings face apart; bit 24 whether it
+// shares its cell with others.
+const uint VERTEX_ON_CAP = 1u << 10u;
+const uint VERTEX_ON_CREASE = 1u << 11u;
+const uint VERTEX_IS_CROWDED = 1u << 24u;
+uint vertex_cell(uint vertex) { return vertex & 0xffu; }
+uint vertex_patch(uint vertex) { return vertex >> 8u & 3u; }
+uint vertex_edge(uint vertex, uint n) { return vertex >> (12u + 4u * n) & 15u; }
+
+// Vertices keep off the faces of their cell by this part of it, so that no two coincide.
+const float MARGIN = 2e-3;
 
 // Of a case: x: patch of edge e in bits 2 e, number of patches in bits 24-26, and 1 + the face to be checked for a
 // doubled edge in bits 28-30; y: edges of patches 0 and 1, 12 bits each; z: of patches 2 and 3.

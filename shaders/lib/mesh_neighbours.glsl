@@ -6,7 +6,7 @@
 
 const uint NO_BRICK = 0xffffffffu;
 
-// Nine a brick: -x, +x, -y, +y, -z, +z, then (-y, -z), (-z, -x), (-x, -y).
+// Twelve a brick: -x, +x, -y, +y, -z, +z, then (-y, -z), (-z, -x), (-x, -y), and (+y, +z), (+z, +x), (+x, +y).
 layout(std430, binding = 7) readonly buffer Neighbours { uint neighbours[]; };
 
 // A cell by brick and number.
@@ -16,19 +16,19 @@ struct CellRef {
 };
 
 // The cell at `at` of brick b, whose coordinates may be one less or one more than the brick's own, in one coordinate or
-// (both less) in two.
+// (both less, or both more) in two.
 CellRef cell_ref(uint b, ivec3 at) {
   const int n = int(BRICK_CELLS);
-  uint slot = 9u;
+  uint slot = 12u;
   if (at.x < 0) slot = at.y < 0 ? 8u : at.z < 0 ? 7u : 0u;
   else if (at.y < 0) slot = at.z < 0 ? 6u : 2u;
   else if (at.z < 0) slot = 4u;
-  else if (at.x >= n) slot = 1u;
-  else if (at.y >= n) slot = 3u;
+  else if (at.x >= n) slot = at.y >= n ? 11u : at.z >= n ? 10u : 1u;
+  else if (at.y >= n) slot = at.z >= n ? 9u : 3u;
   else if (at.z >= n) slot = 5u;
   uvec3 within = uvec3(at + n) % BRICK_CELLS;
   uint cell = within.x + BRICK_CELLS * (within.y + BRICK_CELLS * within.z);
-  return CellRef(slot == 9u ? b : neighbours[9u * b + slot], cell);
+  return CellRef(slot == 12u ? b : neighbours[12u * b + slot], cell);
 }
 
 #endif

@@ -12,6 +12,7 @@
 #include "integration/process.h"
 #include "integration/temporary_directory.h"
 #include "support/mesh_check.h"
+#include "support/self_intersection.h"
 #include "support/shared_files.h"
 
 namespace isofield::integration_test {
@@ -86,6 +87,7 @@ TEST_F(RealData, ANeuronOfThousandsOfSegmentsIsMeshedByOneCommand) {
   EXPECT_EQ(scene.nodes_size(), 4465);
   EXPECT_TRUE(scene.nodes(4464).has_gradient());
   expect_on_surface(neuron, scene, 16, 64, 25'000);
+  EXPECT_TRUE(test_support::self_intersections(neuron.positions, neuron.triangles).empty());
   // Once more, to the byte.
   const std::string first = read_file(directory_.path("mesh.glb"));
   mesh(file, 16);

@@ -17,6 +17,10 @@ std::filesystem::path shared_file(const std::string& name) {
   return (shared / name).lexically_normal();
 }
 
+std::filesystem::path checkout_file(const std::string& name) {
+  return std::filesystem::path(ISOFIELD_CHECKOUT) / name;
+}
+
 bool has_shared_file(const std::string& name) {
   const std::filesystem::path path = shared_file(name);
   if (std::filesystem::exists(path)) return true;

@@ -13,6 +13,9 @@ namespace isofield::test_support {
 // $ISOFIELD_SHARED, else shared/ beside the checkout; the place alone, whether or not something is there.
 std::filesystem::path shared_file(const std::string& name);
 
+// A file of the checkout itself.
+std::filesystem::path checkout_file(const std::string& name);
+
 // Whether the file is there; says loudly on stderr that a test is skipped where it is not.
 bool has_shared_file(const std::string& name);
 

@@ -1,0 +1,64 @@
+// A mesh by bricks of its lattice: what each holds of it, named so that it means the same whatever else is meshed.
+#pragma once
+
+#include <absl/container/flat_hash_map.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace isofield::engine {
+
+struct Mesh {
+  std::vector<float> positions, normals;  // 3 a vertex
+  std::vector<std::uint32_t> triangles;   // 3 a triangle, counter-clockwise from outside
+  std::uint64_t cells = 0;                // looked at
+};
+
+struct MeshBrick {
+  std::uint32_t x, y, z;              // in bricks
+  std::uint32_t vertices, triangles;  // how many it has
+};
+
+// Vertices and triangles lie brick by brick. A triangle belongs to the brick of the lattice edge that it stands around,
+// and its vertices to that brick or to one beside it whose coordinates are one less.
+struct MeshCells {
+  std::vector<MeshBrick> bricks;          // in order of place; those that hold nothing are left out
+  std::vector<float> positions, normals;  // 3 a vertex; normals may be absent
+  // 3 a triangle: bits 0-23 the vertex's number in its brick, bits 24-26 which of the brick's x, y, z are one less than
+  // those of the triangle's.
+  std::vector<std::uint32_t> corners;
+  std::uint64_t cells = 0;  // looked at
+};
+
+// Layers of so many bricks along z come one after the other, so that a mesh can be made and sent in layers; within one
+// the bricks lie in Morton order.
+inline constexpr std::uint32_t kLayerBricks = 8;
+// Of the bricks of a mesh. `a` and `b` have x, y and z.
+template <class A, class B>
+bool comes_before(const A& a, const B& b) {
+  if (a.z / kLayerBricks != b.z / kLayerBricks) return a.z / kLayerBricks < b.z / kLayerBricks;
+  // Morton order goes by the coordinate that differs in the highest bit, z before y before x among equals.
+  const auto less_high_bit = [](std::uint32_t m, std::uint32_t n) { return m < n && m < (m ^ n); };
+  std::uint32_t difference = a.z ^ b.z;
+  bool is_before = a.z < b.z;
+  if (less_high_bit(difference, a.y ^ b.y)) difference = a.y ^ b.y, is_before = a.y < b.y;
+  if (less_high_bit(difference, a.x ^ b.x)) is_before = a.x < b.x;
+  return is_before;
+}
+
+// Numbers the vertices of cells that come in order of place, from the first brick of a mesh on.
+class MeshJoiner {
+ public:
+  // The triangles of `part` by numbers of vertices in the whole mesh.
+  std::vector<std::uint32_t> number(const MeshCells& part);
+  // Appends the part to `mesh`.
+  void append(MeshCells part, Mesh& mesh);
+
+  std::uint32_t vertices() const { return vertices_; }
+
+ private:
+  absl::flat_hash_map<std::uint64_t, std::uint32_t> first_vertices_;  // by brick
+  std::uint32_t vertices_ = 0;
+};
+
+}  // namespace isofield::engine

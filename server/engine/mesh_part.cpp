@@ -1,0 +1,425 @@
+#include "engine/mesh_part.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "engine/mesh_constants.h"
+#include "engine/mesh_creases.h"
+#include "engine/mesh_lattice.h"
+#include "engine/mesh_triangles.h"
+#include "engine/session.h"
+#include "engine/status_macros.h"
+#include "engine/surface_cases.h"
+#include "engine/tape_windows.h"
+
+namespace isofield::engine {
+namespace {
+
+using blobtree::Brick;
+using blobtree::BrickList;
+using blobtree::Lattice;
+using gpu::Buffer;
+
+constexpr std::uint32_t kCells = blobtree::kCellsPerBrick;
+constexpr std::uint32_t kEdgeCorners = blobtree::kBrickCells + 1;
+constexpr std::uint32_t kCorners = kEdgeCorners * kEdgeCorners * kEdgeCorners;
+// Bricks of one submission, and instructions of their tapes: what a cancelled request still waits for, and others with
+// it; some 80 ms of gradient blends on two cores.
+constexpr std::uint32_t kSlab = 4096;
+constexpr std::uint64_t kSlabInstructions = 1u << 16;
+using Constants = MeshConstants;
+using Pair = MeshStart;
+
+// The state of one part on its way through the passes.
+class Run {
+ public:
+  Run(gpu::Device& device, KernelCache& kernels, const ResidentScene& scene, const MeshRequest& request,
+      PartBricks part, const MeshCallbacks& callbacks)
+      : device_(device),
+        kernels_(kernels),
+        scene_(scene),
+        request_(request),
+        callbacks_(callbacks),
+        list_(std::move(part.list)),
+        owned_(part.owned),
+        inner_(part.inner) {
+    const Lattice& lattice = part.lattice;
+    const bool is_signed = scene.tape().law == operators::Law::kSigned;
+    constants_ = {{static_cast<float>(lattice.origin.x), static_cast<float>(lattice.origin.y),
+                   static_cast<float>(lattice.origin.z)},
+                  static_cast<float>(request.cell_size),
+                  {lattice.cells[0], lattice.cells[1], lattice.cells[2], 0},
+                  0,
+                  0,
+                  static_cast<float>(is_signed ? -request.iso : request.iso),
+                  (request.bounds ? 1u : 0u) | (is_signed ? 2u : 0u),
+                  static_cast<float>(request.tolerance)};
+  }
+
+  absl::StatusOr<MeshCells> cells() {
+    ISOFIELD_RETURN_IF_ERROR(upload_bricks());
+    ISOFIELD_RETURN_IF_ERROR(sample());
+    ISOFIELD_RETURN_IF_ERROR(connect());
+    if (starts_[owned_][0] == 0 && starts_[owned_][1] == 0) return MeshCells{};
+    ISOFIELD_RETURN_IF_ERROR(list_elements());
+    ISOFIELD_RETURN_IF_ERROR(find_crossings());
+    ISOFIELD_RETURN_IF_ERROR(place_vertices());
+    ISOFIELD_RETURN_IF_ERROR(settle_vertices());
+    return make_triangles();
+  }
+
+ private:
+  struct Slab {
+    std::uint32_t first, count;
+    Buffer samples;
+  };
+
+  absl::Status check(double fraction) {
+    if (callbacks_.cancelled && callbacks_.cancelled()) return absl::CancelledError("the request was cancelled");
+    if (callbacks_.progress) callbacks_.progress(fraction);
+    return absl::OkStatus();
+  }
+
+  absl::Status upload_bricks() {
+    std::vector<std::array<std::uint32_t, 4>> packed;
+    for (const SurfaceCase& c : surface_cases()) packed.push_back(c.packed());
+    brick_neighbours_ = brick_neighbours(list_.bricks);
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    kinds_ = brick_kinds(scene_.tape(), list_, brick_neighbours_);
+    tapes_.emplace(device_, scene_, std::move(list_.code));
+    windows_.reserve(list_.bricks.size());
+    for (Brick& b : list_.bricks) windows_.push_back(tapes_->add(b.tape_begin, b.tape_count));
+    ISOFIELD_RETURN_IF_ERROR(tapes_->upload(session));
+    ISOFIELD_ASSIGN_OR_RETURN(bricks_, session.upload(std::span(list_.bricks)));
+    ISOFIELD_ASSIGN_OR_RETURN(neighbours_, session.upload(std::span(brick_neighbours_)));
+    ISOFIELD_ASSIGN_OR_RETURN(surface_cases_, session.upload(std::span(packed)));
+    ISOFIELD_ASSIGN_OR_RETURN(cases_, session.scratch(list_.bricks.size() * kCells));
+    return session.run();
+  }
+
+  // Runs a kernel that follows tapes over (brick, place in its slab) pairs, which binding 5 lists in `keep`: by window,
+  // bricks of a single leaf by the kernel that knows no operator, the others by the scene's.
+  template <class Wanted>
+  absl::Status run_bricks(Session& session, const shaders::Spirv& shader, std::uint32_t first, std::uint32_t count,
+                          Wanted is_wanted, std::vector<Buffer>& keep, gpu::Commands::Bindings own) {
+    struct Group {
+      std::uint32_t window;
+      bool is_single;
+      auto operator<=>(const Group&) const = default;
+    };
+    std::map<Group, std::vector<Pair>> groups;
+    for (std::uint32_t b = first; b < first + count; ++b) {
+      if (is_wanted(b)) groups[{windows_[b], list_.bricks[b].tape_count == 1}].push_back({b, b - first});
+    }
+    if (groups.empty()) return absl::OkStatus();
+    std::vector<Pair> jobs;
+    for (const auto& [group, members] : groups) jobs.insert(jobs.end(), members.begin(), members.end());
+    ISOFIELD_ASSIGN_OR_RETURN(Buffer job_buffer, session.upload(std::span(jobs)));
+    own.push_back({5, &keep.emplace_back(std::move(job_buffer))});
+    Constants constants = constants_;
+    for (const auto& [group, members] : groups) {
+      const KernelKind kind = group.is_single ? KernelKind::single_leaf(scene_.tape()) : KernelKind::of(scene_.tape());
+      ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shader, tapes_->kind(kind, group.window)));
+      constants.count = static_cast<std::uint32_t>(members.size());
+      ISOFIELD_RETURN_IF_ERROR(
+          session.commands().dispatch(*kernel, tapes_->bindings(group.window, own), constants, constants.count));
+      constants.first += constants.count;
+    }
+    return absl::OkStatus();
+  }
+
+  // How many bricks from `first` on make a slab; at least one.
+  std::uint32_t slab_from(std::uint32_t first) const {
+    const auto total = static_cast<std::uint32_t>(list_.bricks.size());
+    std::uint64_t instructions = 0;
+    std::uint32_t end = first;
+    while (end < total && end - first < kSlab && (end == first || instructions < kSlabInstructions)) {
+      instructions += list_.bricks[end++].tape_count;
+    }
+    return end - first;
+  }
+
+  absl::Status sample() {
+    const auto total = static_cast<std::uint32_t>(list_.bricks.size());
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* classify, kernels_.get(shaders::kMeshClassify));
+    for (std::uint32_t first = 0, count = 0; first < total; first += count) {
+      ISOFIELD_RETURN_IF_ERROR(check(0.1 + 0.5 * first / total));
+      count = slab_from(first);
+      ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+      ISOFIELD_ASSIGN_OR_RETURN(Buffer samples, session.scratch(std::size_t{4} * kCorners * count));
+      std::vector<Buffer> keep;
+      keep.reserve(2);
+      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshSample, first, count,
+                                          [](std::uint32_t) { return true; }, keep, {{4, &bricks_}, {6, &samples}}));
+      session.commands().barrier();
+      Constants constants = constants_;
+      constants.first = first;
+      constants.count = count;
+      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*classify, {{4, &bricks_}, {5, &samples}, {6, &cases_}},
+                                                           constants, mesh_groups(std::uint64_t{count} * kCells / 4)));
+      ISOFIELD_RETURN_IF_ERROR(session.run());
+      slabs_.push_back({first, count, std::move(samples)});
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status connect() {
+    ISOFIELD_RETURN_IF_ERROR(check(0.6));
+    const auto total = static_cast<std::uint32_t>(list_.bricks.size());
+    std::vector<Pair> counts(total);
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshConnect));
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    ISOFIELD_ASSIGN_OR_RETURN(cells_, session.scratch(std::size_t{4} * kCells * total));
+    ISOFIELD_ASSIGN_OR_RETURN(const Buffer count_buffer, session.scratch(sizeof(Pair) * total));
+    Constants constants = constants_;
+    constants.count = total;
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
+        *kernel,
+        {{4, &bricks_}, {5, &surface_cases_}, {6, &cases_}, {7, &neighbours_}, {8, &cells_}, {9, &count_buffer}},
+        constants, mesh_groups(total)));
+    ISOFIELD_RETURN_IF_ERROR(session.download(count_buffer, std::span(counts)));
+    ISOFIELD_RETURN_IF_ERROR(session.run());
+    starts_.assign(1, {0, 0});
+    starts_.reserve(total + 1);
+    std::uint64_t vertices = 0, quads = 0;
+    for (const Pair& c : counts) {
+      vertices += c[0];
+      quads += c[1];
+      starts_.push_back({static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(quads)});
+    }
+    const std::uint64_t most = device_.description().max_buffer_bytes / 12;
+    if (vertices > most || quads > most) {
+      return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", request_.cell_size, " makes ", vertices,
+                                                       " vertices; this device holds ", most,
+                                                       "; ask for a larger cell size, or a part by its bounds"));
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status list_elements() {
+    ISOFIELD_RETURN_IF_ERROR(check(0.65));
+    const auto total = static_cast<std::uint32_t>(list_.bricks.size());
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshList));
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    ISOFIELD_ASSIGN_OR_RETURN(starts_buffer_, session.upload(std::span(starts_)));
+    ISOFIELD_ASSIGN_OR_RETURN(vertex_list_, session.scratch(std::size_t{4} * starts_.back()[0]));
+    ISOFIELD_ASSIGN_OR_RETURN(quad_list_, session.scratch(std::size_t{8} * starts_.back()[1]));
+    Constants constants = constants_;
+    constants.count = total;
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
+        *kernel,
+        {{4, &bricks_}, {5, &surface_cases_}, {6, &cells_}, {7, &starts_buffer_}, {8, &vertex_list_}, {9, &quad_list_}},
+        constants, mesh_groups(total)));
+    return session.run();
+  }
+
+  // Crossings of all slabs before any vertex: a vertex takes them from its neighbours' bricks too.
+  absl::Status find_crossings() {
+    ISOFIELD_ASSIGN_OR_RETURN(crossings_,
+                              Buffer::create(device_, std::size_t{12} * starts_.back()[1], Buffer::Use::kDevice));
+    for (std::size_t s = 0; s < slabs_.size(); ++s) {
+      ISOFIELD_RETURN_IF_ERROR(check(0.65 + 0.1 * s / slabs_.size()));
+      ISOFIELD_RETURN_IF_ERROR(find_crossings(slabs_[s], [&](std::uint32_t b) {
+        return b < inner_ && (kinds_[b] & kKnowsCrossings) != 0 && starts_[b + 1][1] > starts_[b][1];
+      }));
+    }
+    return absl::OkStatus();
+  }
+
+  template <class Wanted>
+  absl::Status find_crossings(const Slab& slab, Wanted is_wanted) {
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    std::vector<Buffer> keep;
+    keep.reserve(2);
+    ISOFIELD_RETURN_IF_ERROR(
+        run_bricks(session, shaders::kMeshCrossings, slab.first, slab.count, is_wanted, keep,
+                   {{4, &bricks_}, {6, &slab.samples}, {8, &starts_buffer_}, {9, &quad_list_}, {10, &crossings_}}));
+    return session.run();
+  }
+
+  absl::Status place_vertices() {
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshPlace));
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    ISOFIELD_ASSIGN_OR_RETURN(positions_, session.scratch(std::size_t{12} * starts_.back()[0]));
+    ISOFIELD_ASSIGN_OR_RETURN(kinds_buffer_, session.upload(std::span(kinds_)));
+    for (const Slab& slab : slabs_) {
+      if (slab.first >= inner_) break;
+      Constants constants = constants_;
+      constants.first = slab.first;
+      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel,
+                                                           {{4, &bricks_},
+                                                            {5, &surface_cases_},
+                                                            {6, &cells_},
+                                                            {7, &neighbours_},
+                                                            {8, &starts_buffer_},
+                                                            {9, &vertex_list_},
+                                                            {10, &crossings_},
+                                                            {11, &positions_},
+                                                            {12, &kinds_buffer_},
+                                                            {13, &slab.samples}},
+                                                           constants, std::min(slab.count, inner_ - slab.first)));
+    }
+    ISOFIELD_RETURN_IF_ERROR(session.download(kinds_buffer_, std::span(kinds_)));
+    return session.run();
+  }
+
+  // Onto the surface: vertices on creases along all sides of these, then all that are not there yet.
+  absl::Status settle_vertices() {
+    // Of the part's own bricks, which come first.
+    const std::size_t floats = std::size_t{3} * starts_[owned_][0];
+    vertex_positions_.resize(floats);
+    if (request_.with_normals) vertex_normals_.resize(floats);
+    const auto has_vertices = [&](std::uint32_t b) { return b < inner_ && starts_[b + 1][0] > starts_[b][0]; };
+    const auto has_own_vertices = [&](std::uint32_t b) { return b < owned_ && starts_[b + 1][0] > starts_[b][0]; };
+    const auto has_creases = [&](std::uint32_t b) { return b < inner_ && (kinds_[b] & kHasCreases) != 0; };
+    Buffer normals;
+    for (std::size_t s = 0; s < slabs_.size(); ++s) {
+      ISOFIELD_RETURN_IF_ERROR(check(0.75 + 0.2 * s / slabs_.size()));
+      const Slab& slab = slabs_[s];
+      ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+      if (s == 0 && request_.with_normals) {
+        ISOFIELD_ASSIGN_OR_RETURN(normals, session.scratch(4 * floats));
+      }
+      std::vector<Buffer> keep;
+      keep.reserve(6);
+      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshCreases, slab.first, slab.count, has_creases, keep,
+                                          {{4, &bricks_},
+                                           {6, &cells_},
+                                           {7, &neighbours_},
+                                           {8, &starts_buffer_},
+                                           {9, &vertex_list_},
+                                           {10, &crossings_},
+                                           {11, &positions_}}));
+      session.commands().barrier();
+      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshVertices, slab.first, slab.count, has_vertices, keep,
+                                          {{4, &bricks_},
+                                           {6, &cells_},
+                                           {7, &surface_cases_},
+                                           {8, &starts_buffer_},
+                                           {9, &vertex_list_},
+                                           {11, &positions_}}));
+      if (request_.with_normals) {
+        session.commands().barrier();
+        ISOFIELD_RETURN_IF_ERROR(
+            find_normals(session, slab, has_own_vertices, starts_buffer_, positions_, normals, keep));
+      }
+      if (s + 1 == slabs_.size()) {
+        ISOFIELD_RETURN_IF_ERROR(session.download(positions_, std::span(vertex_positions_)));
+        if (request_.with_normals) {
+          ISOFIELD_RETURN_IF_ERROR(session.download(normals, std::span(vertex_normals_)));
+        }
+      }
+      ISOFIELD_RETURN_IF_ERROR(session.run());
+    }
+    return absl::OkStatus();
+  }
+
+  // Of the positions of a slab's bricks, which start where `starts` says.
+  template <class Wanted>
+  absl::Status find_normals(Session& session, const Slab& slab, Wanted is_wanted, const Buffer& starts,
+                            const Buffer& positions, const Buffer& normals, std::vector<Buffer>& keep) {
+    return run_bricks(session, shaders::kMeshNormals, slab.first, slab.count, is_wanted, keep,
+                      {{4, &bricks_}, {6, &starts}, {7, &positions}, {8, &normals}});
+  }
+
+  absl::StatusOr<MeshCells> make_triangles() {
+    const QuadCutter::Check checked = [this](double fraction) { return check(fraction); };
+    QuadCutter cutter(device_, kernels_, constants_,
+                      {{4, &bricks_},
+                       {5, &surface_cases_},
+                       {6, &cells_},
+                       {7, &neighbours_},
+                       {8, &starts_buffer_},
+                       {9, &quad_list_},
+                       {10, &crossings_}},
+                      std::span(starts_).first(owned_ + 1), checked);
+    ISOFIELD_RETURN_IF_ERROR(cutter.cut(positions_, kinds_buffer_));
+    const auto is_unknown = [&](std::uint32_t b) {
+      return b < owned_ && (kinds_[b] & kKnowsCrossings) == 0 && cutter.has_fans(b);
+    };
+    for (std::size_t s = 0; s < slabs_.size() && cutter.fans() > 0; ++s) {
+      ISOFIELD_RETURN_IF_ERROR(find_crossings(slabs_[s], is_unknown));
+    }
+    MeshCells cells;
+    std::vector<float> centres, centre_normals;
+    ISOFIELD_ASSIGN_OR_RETURN(const Buffer centre_buffer, cutter.make(cells.corners, centres));
+    if (cutter.fans() > 0 && request_.with_normals) {
+      ISOFIELD_ASSIGN_OR_RETURN(centre_normals, find_fan_normals(cutter, centre_buffer));
+    }
+    ISOFIELD_RETURN_IF_ERROR(check(1));
+    // Brick by brick: the vertices of its cells, then those amid its fans.
+    cells.cells = std::uint64_t{owned_} * kCells;
+    const auto append = [](std::vector<float>& to, const std::vector<float>& from, std::uint32_t begin,
+                           std::uint32_t end) {
+      if (!from.empty())
+        to.insert(to.end(), from.begin() + 3 * std::size_t{begin}, from.begin() + 3 * std::size_t{end});
+    };
+    cells.positions.reserve(vertex_positions_.size() + centres.size());
+    cells.normals.reserve(vertex_normals_.size() + centre_normals.size());
+    for (std::uint32_t b = 0; b < owned_; ++b) {
+      const MeshStart begin = starts_[b], end = starts_[b + 1];
+      const std::uint32_t fan = cutter.fan_starts()[b][0], fan_end = cutter.fan_starts()[b + 1][0];
+      const std::uint32_t vertices = end[0] - begin[0] + fan_end - fan;
+      const std::uint32_t triangles = 2 * (end[1] - begin[1] + fan_end - fan);
+      if (vertices == 0 && triangles == 0) continue;
+      const Brick& at = list_.bricks[b];
+      cells.bricks.push_back({at.x, at.y, at.z, vertices, triangles});
+      append(cells.positions, vertex_positions_, begin[0], end[0]);
+      append(cells.positions, centres, fan, fan_end);
+      append(cells.normals, vertex_normals_, begin[0], end[0]);
+      append(cells.normals, centre_normals, fan, fan_end);
+    }
+    return cells;
+  }
+
+  absl::StatusOr<std::vector<float>> find_fan_normals(const QuadCutter& cutter, const Buffer& centres) {
+    const auto has_fans = [&](std::uint32_t b) { return b < owned_ && cutter.has_fans(b); };
+    std::vector<float> found(std::size_t{3} * cutter.fans());
+    Buffer starts, normals;
+    for (std::size_t s = 0; s < slabs_.size(); ++s) {
+      ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+      if (s == 0) {
+        ISOFIELD_ASSIGN_OR_RETURN(starts, session.upload(std::span(cutter.fan_starts())));
+        ISOFIELD_ASSIGN_OR_RETURN(normals, session.scratch(4 * found.size()));
+      }
+      std::vector<Buffer> keep;
+      keep.reserve(2);
+      ISOFIELD_RETURN_IF_ERROR(find_normals(session, slabs_[s], has_fans, starts, centres, normals, keep));
+      if (s + 1 == slabs_.size()) ISOFIELD_RETURN_IF_ERROR(session.download(normals, std::span(found)));
+      ISOFIELD_RETURN_IF_ERROR(session.run());
+    }
+    return found;
+  }
+
+  gpu::Device& device_;
+  KernelCache& kernels_;
+  const ResidentScene& scene_;
+  const MeshRequest& request_;
+  const MeshCallbacks& callbacks_;
+
+  BrickList list_;  // its code has gone to tapes_, and the bricks' tapes begin in their windows
+  const std::uint32_t owned_, inner_;
+  std::optional<TapeWindows> tapes_;
+  std::vector<std::uint32_t> windows_;  // of the bricks' tapes
+  Constants constants_{};
+  std::vector<Slab> slabs_;
+  std::vector<Pair> starts_;  // first vertex and first quad of each brick, and the totals
+  std::vector<std::uint32_t> brick_neighbours_, kinds_;
+  Buffer bricks_, neighbours_, surface_cases_, cases_, cells_, starts_buffer_, vertex_list_, quad_list_, crossings_,
+      kinds_buffer_, positions_;
+  std::vector<float> vertex_positions_, vertex_normals_;
+};
+
+}  // namespace
+
+absl::StatusOr<MeshCells> mesh_part(gpu::Device& device, KernelCache& kernels, const ResidentScene& scene,
+                                    const MeshRequest& request, PartBricks part, const MeshCallbacks& callbacks) {
+  return Run(device, kernels, scene, request, std::move(part), callbacks).cells();
+}
+
+}  // namespace isofield::engine

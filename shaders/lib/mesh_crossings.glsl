@@ -1,0 +1,76 @@
+// Where the surface crosses the lattice's edges and which way it faces there: a crossing a quad, kept with its brick's.
+#ifndef MESH_CROSSINGS_GLSL
+#define MESH_CROSSINGS_GLSL
+
+#include "mesh_neighbours.glsl"
+
+layout(std430, binding = 6) readonly buffer Cells { uint cells_in[]; };
+layout(std430, binding = 8) readonly buffer Starts { uvec2 starts[]; };
+// Of bricks that know theirs. Of length 1 + (place along the edge, within [0, 1]) along the unit outward normal.
+layout(std430, binding = 10) readonly buffer Crossings { float crossings[]; };
+
+struct Crossing {
+  vec3 at;  // in cells, from the low corner of the cell that was asked
+  vec3 normal;
+};
+
+// Of a crossed edge of a cell: the quads of an edge are those of the cell that has it at its low corner.
+Crossing crossing_of(uint b, uvec3 cell, uint edge) {
+  uvec3 low = edge_offset(edge);
+  uint axis = edge >> 2u;
+  CellRef owner = cell_ref(b, ivec3(cell + low));
+  if (owner.brick == NO_BRICK) return Crossing(vec3(0.5), vec3(axis_vector(axis)));  // unreachable: a cell with a crossing edge is never culled
+  uint state = cells_in[owner.brick * CELLS_PER_BRICK + owner.cell];
+  uint before = own_crossings(state) & ((1u << axis) - 1u);
+  uint q = starts[owner.brick].y + cell_quad(state) + uint(bitCount(before));
+  vec3 v = vec3(crossings[3u * q], crossings[3u * q + 1u], crossings[3u * q + 2u]);
+  float len = length(v);
+  return Crossing(vec3(low) + (len - 1.0) * vec3(axis_vector(axis)), v / len);
+}
+
+// What is known of a brick, as bits: server/engine/mesh_creases.h.
+const uint KNOWS_CROSSINGS = 1u;
+const uint MAY_CREASE = 2u;
+const uint HAS_CREASES = 4u;
+
+// Planes, met as well as can be: the sum of their squared distances, about some point.
+struct Planes {
+  vec3 xx_yy_zz, yz_zx_xy;  // of the sum of n n'
+  vec3 offset;              // of the sum of n times the plane's distance from the point along n
+};
+Planes no_planes() { return Planes(vec3(0.0), vec3(0.0), vec3(0.0)); }
+void add_plane(inout Planes s, vec3 n, float distance) {
+  s.xx_yy_zz += n * n;
+  s.yz_zx_xy += n.yzx * n.zxy;
+  s.offset += distance * n;
+}
+vec3 times(Planes s, vec3 v) { return s.xx_yy_zz * v + s.yz_zx_xy.zxy * v.yzx + s.yz_zx_xy.yzx * v.zxy; }
+
+// Keeps the least squares where they are along what the planes leave open, or almost open: what a truncated
+// pseudo-inverse does, but continuous, without an eigen decomposition, and made good by the next round.
+const float DAMPING = 0.002;
+
+// From the point to where the planes meet as well as can be within the cell, the point being at `x` in it, in cells. Where
+// they meet outside the cell it slides along the crease to the cell's face: what leaves the cell is held there, and the
+// rest follows.
+vec3 meeting_point(Planes s, vec3 x) {
+  vec3 least = vec3(MARGIN) - x, most = vec3(1.0 - MARGIN) - x;
+  float scale = dot(s.xx_yy_zz, vec3(1.0));
+  vec3 held = vec3(0.0), free = vec3(1.0), step = vec3(0.0);
+  for (int round = 0; round < 3; ++round) {
+    vec3 d = mix(vec3(scale), s.xx_yy_zz + DAMPING * scale, free);
+    vec3 o = s.yz_zx_xy * free.yzx * free.zxy;
+    vec3 rest = mix(scale * held, s.offset - times(s, held), free);
+    vec3 column0 = vec3(d.x, o.z, o.y), column1 = vec3(o.z, d.y, o.x), column2 = vec3(o.y, o.x, d.z);
+    vec3 c0 = cross(column1, column2), c1 = cross(column2, column0), c2 = cross(column0, column1);
+    step = (rest.x * c0 + rest.y * c1 + rest.z * c2) / max(dot(column0, c0), 1e-30);
+    vec3 within = clamp(step, least, most);
+    bvec3 leaves = greaterThan(abs(step - within) * free, vec3(0.0));
+    held = mix(held, within, leaves);
+    free = mix(free, vec3(0.0), leaves);
+    step = within;
+  }
+  return step;
+}
+
+#endif

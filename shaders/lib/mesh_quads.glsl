@@ -1,0 +1,47 @@
+// The four vertices around an edge that the surface crosses.
+#ifndef MESH_QUADS_GLSL
+#define MESH_QUADS_GLSL
+
+#include "mesh_crossings.glsl"
+
+layout(std430, binding = 5) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
+layout(std430, binding = 9) readonly buffer Quads { uvec2 quad_list[]; };
+
+// How a quad becomes triangles.
+const uint CUT_02 = 0u;  // along the diagonal of the vertices 0 and 2
+const uint CUT_13 = 1u;
+const uint CUT_FAN = 2u;  // four triangles around the crossing of its edge, which becomes a vertex
+
+struct Quad {
+  uint brick;
+  uvec3 at;  // the cell in the brick that has its edge at its low corner
+  uint axis;
+  bool inside_low;
+  uvec4 vertices;  // counter-clockwise about the axis, from the cell at `at`
+  uvec4 corners;   // the same as a triangle names them: number in its brick | which of the brick's coordinates are one less << 24
+};
+
+// The vertex of the patch that holds the quad's edge in the cell at offset -(du, dv) from the edge; as a corner too.
+uvec2 quad_vertex(uint b, uvec3 at, uint axis, uint du, uint dv) {
+  ivec3 where = ivec3(at) - int(du) * ivec3(axis_vector((axis + 1u) % 3u)) - int(dv) * ivec3(axis_vector((axis + 2u) % 3u));
+  CellRef c = cell_ref(b, where);
+  if (c.brick == NO_BRICK) return uvec2(0u);  // unreachable: a cell with a crossing edge is never culled
+  uint cell = cells_in[c.brick * CELLS_PER_BRICK + c.cell];
+  uint number = cell_vertex(cell) + case_patch_of_edge(surface_cases[cell_case(cell)], 4u * axis + du + 2u * dv);
+  uint below = (where.x < 0 ? 1u : 0u) | (where.y < 0 ? 2u : 0u) | (where.z < 0 ? 4u : 0u);
+  return uvec2(starts[c.brick].x + number, number | below << 24u);
+}
+
+Quad quad(uint q) {
+  uint b = quad_list[q].x, code = quad_list[q].y;
+  uvec3 at = cell_in_brick(code & 0xffu);
+  uint axis = code >> 8u & 3u;
+  uvec2 v0 = quad_vertex(b, at, axis, 0u, 0u), v1 = quad_vertex(b, at, axis, 1u, 0u),
+        v2 = quad_vertex(b, at, axis, 1u, 1u), v3 = quad_vertex(b, at, axis, 0u, 1u);
+  return Quad(b, at, axis, (code >> 10u) != 0u, uvec4(v0.x, v1.x, v2.x, v3.x), uvec4(v0.y, v1.y, v2.y, v3.y));
+}
+
+// Where the surface crosses the quad's edge, from its low end, in cells.
+float crossing_place(uint q) { return length(vec3(crossings[3u * q], crossings[3u * q + 1u], crossings[3u * q + 2u])) - 1.0; }
+
+#endif

@@ -1,0 +1,67 @@
+// Mesher, pass 7: draws the vertices on creases to where the sides of the crease meet, one workgroup a brick.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
+
+#include "interpreter.glsl"
+#include "mesh_crossings.glsl"
+
+layout(local_size_x = 32) in;
+
+layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };
+layout(std430, binding = 9) readonly buffer Vertices { uint vertex_list[]; };
+layout(std430, binding = 11) buffer Positions { float positions[]; };
+
+// Each round takes the tangent planes anew, on the way from the vertex to a crossing on every side: what the curvature of
+// a side adds falls with the square of that distance, as does what a steering direction lacks of the gradient with the
+// distance.
+const int ROUNDS = 3;
+const float FIRST_PULL = 0.35, PULL = 0.07;
+// And a little further out of the cell along the side: where the crease lies in a face, a side may lie beyond it.
+const float BEYOND = 0.1;
+
+void main() {
+  uint b = jobs[2u * (first + gl_WorkGroupID.x)];
+  Brick at = brick(b);
+  uint end = starts[b + 1u].x;
+  // By subgroups, whole ones: surplus invocations repeat the last vertex.
+  for (uint from = starts[b].x + gl_SubgroupID * gl_SubgroupSize; from < end; from += gl_WorkGroupSize.x) {
+    uint v = min(from + gl_SubgroupInvocationID, end - 1u);
+    uint vertex = vertex_list[v];
+    bool on_crease = (vertex & VERTEX_ON_CREASE) != 0u;
+    if (!subgroupAny(on_crease)) continue;
+    uvec3 cell = cell_in_brick(vertex_cell(vertex));
+    vec3 low = corner_position(at.at * BRICK_CELLS + cell);
+    float size = origin.w;
+    Crossing from0 = Crossing(vec3(0.0), vec3(0.0)), from1 = from0, from2 = from0;
+    if (on_crease) {
+      from0 = crossing_of(b, cell, vertex_edge(vertex, 0u));
+      from1 = crossing_of(b, cell, vertex_edge(vertex, 1u));
+      from2 = crossing_of(b, cell, vertex_edge(vertex, 2u));
+    }
+    vec3 x = (vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]) - low) / size;
+    Planes planes = no_planes();
+    for (int step = 0; step < 3 * ROUNDS; ++step) {
+      int side = step % 3;
+      vec3 at_side = side == 0 ? from0.at : side == 1 ? from1.at : from2.at;
+      vec3 facing = side == 0 ? from0.normal : side == 1 ? from1.normal : from2.normal;
+      vec3 outwards = at_side - 0.5;
+      vec3 q = mix(x, at_side, step < 3 ? FIRST_PULL : PULL) + BEYOND * (outwards - dot(outwards, facing) * facing);
+      Field a = evaluate(low + q * size, at.tape_begin, at.tape_count);
+      vec3 d = inward() * size * a.d;
+      float inverse = inversesqrt(max(dot(d, d), 1e-30));
+      vec3 n = -d * inverse;
+      add_plane(planes, n, dot(n, q - x) + (inward() * a.f - iso) * inverse);
+      if (side == 2) {
+        x += meeting_point(planes, x);
+        planes = no_planes();
+      }
+    }
+    if (on_crease) {
+      vec3 p = low + x * size;
+      positions[3u * v] = p.x;
+      positions[3u * v + 1u] = p.y;
+      positions[3u * v + 2u] = p.z;
+    }
+  }
+}

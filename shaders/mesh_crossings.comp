@@ -1,0 +1,62 @@
+// Mesher, pass 5: where the surface crosses each quad's edge, and its normal there, one workgroup a brick.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
+
+#include "interpreter.glsl"
+#include "mesh_constants.glsl"
+
+layout(local_size_x = 32) in;
+
+layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };  // brick, place of its samples in the slab
+layout(std430, binding = 6) readonly buffer Samples { float samples[]; };
+layout(std430, binding = 8) readonly buffer Starts { uvec2 starts[]; };
+layout(std430, binding = 9) readonly buffer Quads { uvec2 quad_list[]; };
+layout(std430, binding = 10) writeonly buffer Crossings { float crossings[]; };  // mesh_crossings.glsl
+
+// The linearised distance, in cells, from where a step of Newton's method is the last: it squares it.
+const float NEAR = 0.02;
+const int STEPS = 8;
+
+void main() {
+  uint b = jobs[2u * (first + gl_WorkGroupID.x)];
+  uint slot = jobs[2u * (first + gl_WorkGroupID.x) + 1u];
+  Brick at = brick(b);
+  uint end = starts[b + 1u].y;
+  // By subgroups, whole ones: surplus invocations repeat the last crossing.
+  for (uint from = starts[b].y + gl_SubgroupID * gl_SubgroupSize; from < end; from += gl_WorkGroupSize.x) {
+    uint q = min(from + gl_SubgroupInvocationID, end - 1u);
+    uint code = quad_list[q].y;
+    uvec3 cell = cell_in_brick(code & 0xffu), step_along = axis_vector(code >> 8u & 3u);
+    bool inside_low = (code >> 10u) != 0u;
+    float f0 = samples[slot * CORNERS_PER_BRICK + sample_place(cell)];
+    float f1 = samples[slot * CORNERS_PER_BRICK + sample_place(cell + step_along)];
+    uvec3 base = at.at * BRICK_CELLS + cell;
+    vec3 low = corner_position(base), along = vec3(step_along);
+    float size = origin.w;
+
+    // Newton's method along the edge within a bracket that closes from both sides, and bisection where it would leave it.
+    float least = 0.0, most = 1.0;
+    float s = clamp((iso - f0) / (f1 - f0), 0.0, 1.0);
+    vec3 n = inside_low ? along : -along;
+    bool done = is_cap(base + (inside_low ? step_along : uvec3(0u)));
+    for (int step = 0; step < STEPS && subgroupAny(!done); ++step) {
+      Field a = evaluate(low + s * size * along, at.tape_begin, at.tape_count);
+      // Scaled by the cell first: in large units the square of a gradient underflows.
+      vec3 d = inward() * size * a.d;
+      float excess = inward() * a.f - iso, slope2 = dot(d, d);
+      n = slope2 > 1e-30 && !done ? -d * inversesqrt(slope2) : n;
+      bool is_last = abs(excess) <= NEAR * sqrt(slope2);
+      if ((excess > 0.0) == inside_low) least = s; else most = s;
+      float newton = s - excess / dot(d, along);
+      bool is_within = newton >= least && newton <= most;  // not a NaN
+      float next = is_within ? newton : is_last ? s : 0.5 * (least + most);
+      s = done ? s : next;
+      done = done || is_last;
+    }
+    n *= 1.0 + s;
+    crossings[3u * q] = n.x;
+    crossings[3u * q + 1u] = n.y;
+    crossings[3u * q + 2u] = n.z;
+  }
+}

@@ -1,0 +1,92 @@
+// Mesher, pass 6: where every vertex starts, one workgroup a brick: at the mean of its patch's crossings or, in bricks
+// that may have creases, where the tangent planes there meet (dual contouring: Ju, Losasso, Schaefer, Warren 2002); and
+// finds the creases.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "mesh_crossings.glsl"
+
+layout(local_size_x = 32) in;
+
+layout(std430, binding = 5) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
+layout(std430, binding = 9) buffer Vertices { uint vertex_list[]; };  // mesh_constants.glsl
+layout(std430, binding = 11) writeonly buffer Positions { float positions[]; };
+layout(std430, binding = 12) buffer Kinds { uint kinds[]; };
+layout(std430, binding = 13) readonly buffer Samples { float samples[]; };  // of the slab that starts at brick `first`
+
+// A patch is taken to hold a crease where the mean of the squared sines between its normals and their mean is more:
+// creases that turn by about 25 degrees, and surfaces with a radius of up to 2.5 cells.
+const float CREASE_SPREAD = 0.04;
+
+void main() {
+  uint b = first + gl_WorkGroupID.x;
+  Brick at = brick(b);
+  bool may_crease = (kinds[b] & MAY_CREASE) != 0u;
+  uint end = starts[b + 1u].x;
+  for (uint v = starts[b].x + gl_LocalInvocationID.x; v < end; v += gl_WorkGroupSize.x) {
+    uint vertex = vertex_list[v];
+    uvec3 cell = cell_in_brick(vertex_cell(vertex));
+    uint state = cells_in[b * CELLS_PER_BRICK + vertex_cell(vertex)];
+    uvec4 surface = surface_cases[cell_case(state)];
+    uint edges = case_edges(surface, vertex_patch(vertex));
+    bool is_crowded = case_patches(surface) > 1u;
+    uvec3 base = at.at * BRICK_CELLS + cell;
+
+    vec3 sum = vec3(0.0), facing = vec3(0.0);
+    Planes planes = no_planes();  // about the cell's low corner
+    bool on_cap = false;
+    for (uint left = edges; left != 0u; left &= left - 1u) {
+      uint edge = uint(findLSB(left));
+      uvec3 low = edge_offset(edge), high = low + axis_vector(edge >> 2u);
+      Crossing c = Crossing(vec3(0.0), vec3(0.0));
+      if (may_crease) {
+        c = crossing_of(b, cell, edge);
+      } else {
+        float f0 = samples[gl_WorkGroupID.x * CORNERS_PER_BRICK + sample_place(cell + low)];
+        float f1 = samples[gl_WorkGroupID.x * CORNERS_PER_BRICK + sample_place(cell + high)];
+        c.at = mix(vec3(low), vec3(high), clamp((iso - f0) / (f1 - f0), 0.0, 1.0));
+      }
+      sum += c.at;
+      facing += c.normal;
+      add_plane(planes, c.normal, dot(c.normal, c.at));
+      on_cap = on_cap || is_cap(base + low) || is_cap(base + high);
+    }
+    float count = float(bitCount(edges));
+    vec3 mean = sum / count;
+    planes.offset -= times(planes, mean);
+    vec3 x = clamp(mean + (on_cap || is_crowded || !may_crease ? vec3(0.0) : meeting_point(planes, mean)), MARGIN, 1.0 - MARGIN);
+
+    float spread = 1.0 - dot(facing, times(planes, facing)) / (count * max(dot(facing, facing), 1e-12));
+    bool on_crease = may_crease && spread > CREASE_SPREAD && !on_cap && !is_crowded;
+    if (on_crease) {
+      // The crossing that faces furthest from the mean, that which faces furthest from it, and that which faces furthest
+      // from the plane of the two.
+      vec3 axis = -facing, second = vec3(0.0);
+      uint chosen = 0u;
+      for (uint n = 0u; n < 3u; ++n) {
+        float best = -1e30;
+        uint best_edge = 0u;
+        vec3 best_normal = vec3(0.0);
+        for (uint left = edges; left != 0u; left &= left - 1u) {
+          uint edge = uint(findLSB(left));
+          vec3 normal = crossing_of(b, cell, edge).normal;
+          float score = dot(normal, axis);
+          score = n == 2u ? abs(score) : score;
+          best_edge = score > best ? edge : best_edge;
+          best_normal = score > best ? normal : best_normal;
+          best = max(score, best);
+        }
+        chosen |= best_edge << (4u * n);
+        axis = n == 0u ? -best_normal : cross(second, best_normal);
+        second = best_normal;
+      }
+      vertex |= VERTEX_ON_CREASE | chosen << 12u;
+      atomicOr(kinds[b], HAS_CREASES);
+    }
+    vertex_list[v] = vertex | (on_cap ? VERTEX_ON_CAP : 0u) | (is_crowded ? VERTEX_IS_CROWDED : 0u);
+    vec3 p = corner_position(base) + x * origin.w;
+    positions[3u * v] = p.x;
+    positions[3u * v + 1u] = p.y;
+    positions[3u * v + 2u] = p.z;
+  }
+}

@@ -1,0 +1,64 @@
+// Mesher, pass 10: how each quad is cut into triangles.
+//
+// Within the envelope, the tetrahedra that the quad's edge spans with two consecutive vertices each, no two quads'
+// triangles meet but where they share vertices: envelopes of different edges have no inner point in common where the
+// vertices lie in their cells (Ju and Udeshi, "Intersection-free contouring on an octree grid", 2006). A fan around the
+// crossing of the edge always lies within; a pair of triangles is taken where it does.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "mesh_quads.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 11) readonly buffer Positions { float positions[]; };
+layout(std430, binding = 12) writeonly buffer Cuts { uint cuts[]; };
+layout(std430, binding = 13) readonly buffer Kinds { uint kinds[]; };
+
+// How far within the envelope, as a part of it.
+const float SLACK = 1e-3;
+// What a right angle between two triangles counts beside a cell's distance from the crossing, where that is known.
+const float BEND = 0.02;
+const float REFUSED = 1e30;
+
+// From the low end of the edge, in cells, along the next two axes in cyclic order and the edge's.
+vec3 place(uint v, vec3 edge, uint axis) {
+  vec3 p = (vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]) - edge) / origin.w;
+  return axis == 0u ? p.yzx : axis == 1u ? p.zxy : p;
+}
+
+float turn(vec3 a, vec3 b) { return a.x * b.y - a.y * b.x; }
+
+// What cutting the quad a, b, c, d along a c costs: the distance between its triangles and the crossing on the edge, and
+// their bend. Seen along the edge the vertices lie around it counter-clockwise, and their triangles and the envelope are
+// linear between the edge, the vertices, and the diagonal's crossing of the ray from the edge to b or d.
+float cost(vec3 a, vec3 b, vec3 c, vec3 d, float crossing, bool knows_crossing) {
+  vec3 n0 = cross(b - a, c - a), n1 = cross(c - a, d - a);
+  float flatness = dot(n0, n1) * inversesqrt(max(dot(n0, n0) * dot(n1, n1), 1e-36));
+  // The diagonal passes between the edge and b.
+  bool swapped = turn(a, c) < 0.0;
+  vec3 p = swapped ? c : a, q = swapped ? d : b, r = swapped ? a : c, s = swapped ? b : d;
+  float pq = turn(p, q), qr = turn(q, r), pr = turn(p, r), rs = turn(r, s), sp = turn(s, p);
+  float along_ray = pr / (pq + qr), along_diagonal = pq / (pq + qr);
+  float room = 1.0 - along_ray;
+  float over_ray = mix(p.z, r.z, along_diagonal) - along_ray * q.z;
+  float on_edge = (rs * p.z + sp * r.z + pr * s.z) / (rs + sp + pr);
+  bool is_within = room > SLACK && over_ray > SLACK * room && over_ray < (1.0 - SLACK) * room && on_edge > SLACK &&
+                   on_edge < 1.0 - SLACK;
+  return is_within ? (knows_crossing ? abs(on_edge - crossing) : 0.0) + BEND * (1.0 - flatness) : REFUSED;
+}
+
+void main() {
+  uint n = gl_GlobalInvocationID.x;  // within the slab
+  if (n >= count) return;
+  uint q = first + n;
+  Quad at = quad(q);
+  vec3 edge = corner_position(brick(at.brick).at * BRICK_CELLS + at.at);
+  vec3 p0 = place(at.vertices.x, edge, at.axis), p1 = place(at.vertices.y, edge, at.axis),
+       p2 = place(at.vertices.z, edge, at.axis), p3 = place(at.vertices.w, edge, at.axis);
+  float crossing = crossing_place(q);
+  bool knows_crossing = (kinds[at.brick] & KNOWS_CROSSINGS) != 0u;
+  float cost02 = cost(p0, p1, p2, p3, crossing, knows_crossing);
+  float cost13 = cost(p1, p2, p3, p0, crossing, knows_crossing);
+  cuts[q] = min(cost02, cost13) >= REFUSED ? CUT_FAN : cost13 < cost02 ? CUT_13 : CUT_02;
+}

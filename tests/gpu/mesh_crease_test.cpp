@@ -1,0 +1,228 @@
+// Creases of meshes, against the surfaces that meet there.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "engine/mesher.h"
+#include "gpu/gpu_environment.h"
+#include "support/mesh_check.h"
+#include "support/scene_text.h"
+
+namespace isofield::gpu_test {
+namespace {
+
+using blobtree::dvec3;
+using engine::Mesh;
+
+// A side of a crease: its distance function, whose gradient has length 1, positive outside of it alone.
+using Side = std::function<double(const dvec3&)>;
+
+dvec3 normal_of(const Side& side, const dvec3& p) {
+  constexpr double h = 1e-5;
+  return dvec3{side({p.x + h, p.y, p.z}) - side({p.x - h, p.y, p.z}),
+               side({p.x, p.y + h, p.z}) - side({p.x, p.y - h, p.z}),
+               side({p.x, p.y, p.z + h}) - side({p.x, p.y, p.z - h})} *
+         (0.5 / h);
+}
+
+// How far p is from where both sides are 0: Newton's method along the shortest way.
+double distance_to_crease(const Side& a, const Side& b, const dvec3& p) {
+  dvec3 x = p;
+  for (int step = 0; step < 8; ++step) {
+    const dvec3 n = normal_of(a, x), m = normal_of(b, x);
+    const double c = dot(n, m), fa = a(x), fb = b(x), scale = 1 / (1 - c * c);
+    x = x - n * (scale * (fa - c * fb)) - m * (scale * (fb - c * fa));
+  }
+  return length(x - p);
+}
+
+double degrees_between(const dvec3& a, const dvec3& b) {
+  return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
+}
+
+struct Face {
+  std::array<dvec3, 3> corners;
+  dvec3 normal;
+  std::size_t side;
+};
+
+// Edges and heights of triangles below this part of a cell say little about angles: vertices are within 1e-3 of a cell
+// of the surface.
+constexpr double kThin = 0.25;
+
+// Every edge between triangles of different sides has both ends on their crease within 2 % of a cell, and the edges
+// make up the whole crease. Its triangles meet within a degree of an angle that the sides have over them; where the
+// crease nips a cell without crossing its edges, which tells the mesher nothing, some do not.
+void expect_creases(const v1::Scene& scene, double cell, const std::vector<Side>& sides, double crease_length,
+                    double iso = 0.5) {
+  static engine::Mesher mesher(device(), kernels());
+  const absl::StatusOr<Mesh> mesh = mesher.mesh(*resident(scene), {.cell_size = cell, .iso = iso}, {});
+  ASSERT_TRUE(mesh.ok()) << mesh.status();
+  const test_support::MeshReport report = test_support::check_mesh(mesh->positions, mesh->triangles);
+  ASSERT_TRUE(report.sound()) << report.text();
+  EXPECT_EQ(report.zero_area, 0u);
+
+  const auto position = [&](std::uint32_t v) {
+    const float* p = &mesh->positions[3 * std::size_t{v}];
+    return dvec3{p[0], p[1], p[2]};
+  };
+  std::vector<Face> faces;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> edges;
+  std::size_t flipped = 0;
+  for (std::size_t t = 0; t < mesh->triangles.size(); t += 3) {
+    const std::array<std::uint32_t, 3> v{mesh->triangles[t], mesh->triangles[t + 1], mesh->triangles[t + 2]};
+    const dvec3 a = position(v[0]), b = position(v[1]), c = position(v[2]);
+    Face face{{a, b, c}, cross(b - a, c - a), 0};
+    const dvec3 middle = (a + b + c) * (1.0 / 3);
+    // The ends of a crease lie on both of its sides: the normal tells.
+    const auto off = [&](const Side& s) {
+      return (std::abs(s(a)) + std::abs(s(b)) + std::abs(s(c))) / cell +
+             0.01 * degrees_between(face.normal, normal_of(s, middle));
+    };
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+      if (off(sides[i]) < off(sides[face.side])) face.side = i;
+    }
+    flipped += dot(face.normal, normal_of(sides[face.side], middle)) <= 0;
+    for (int i = 0; i < 3; ++i) edges[std::minmax(v[i], v[(i + 1) % 3])].push_back(faces.size());
+    faces.push_back(face);
+  }
+  EXPECT_EQ(flipped, 0u);
+
+  double worst = 0, worst_angle = 0, total = 0;
+  std::size_t count = 0, measured = 0, off = 0, bent = 0;
+  for (const auto& [ends, around] : edges) {
+    const Face &f = faces[around[0]], &g = faces[around[1]];
+    if (f.side == g.side) continue;
+    const Side &a = sides[f.side], &b = sides[g.side];
+    ++count;
+    total += length(position(ends.first) - position(ends.second));
+    for (const std::uint32_t v : {ends.first, ends.second}) {
+      const double distance = distance_to_crease(a, b, position(v)) / cell;
+      worst = std::max(worst, distance);
+      off += distance > 0.02;
+    }
+    const double edge = length(position(ends.first) - position(ends.second)) / cell;
+    const double thinnest = std::min(length(f.normal), length(g.normal)) / (edge * cell * cell);
+    if (std::min(edge, thinnest) < kThin) continue;
+    ++measured;
+    const double angle = degrees_between(f.normal, g.normal);
+    double least = 180, most = 0;
+    for (const dvec3& p : f.corners) {
+      for (const dvec3& q : g.corners) {
+        const double exact = degrees_between(normal_of(a, p), normal_of(b, q));
+        least = std::min(least, exact);
+        most = std::max(most, exact);
+      }
+    }
+    const double error = std::max({least - angle, angle - most, 0.0});
+    worst_angle = std::max(worst_angle, error);
+    bent += error > 1;
+  }
+  std::cout << count << " edges on creases, furthest end " << worst << " cells off; worst angle of " << measured << " "
+            << worst_angle << " degrees off; length " << total << " of " << crease_length << "\n";
+  EXPECT_EQ(off, 0u);
+  EXPECT_LE(bent, measured / 25);
+  EXPECT_LE(worst_angle, 5);
+  EXPECT_NEAR(total, crease_length, 0.01 * crease_length);
+}
+
+Side plane(dvec3 n, double distance) {
+  const double inverse = 1 / length(n);
+  return [=](const dvec3& p) { return dot(n, p) * inverse - distance; };
+}
+Side ball(dvec3 centre, double radius, double sign = 1) {
+  return [=](const dvec3& p) { return sign * (length(p - centre) - radius); };
+}
+std::vector<Side> box_sides(dvec3 centre, double half) {
+  std::vector<Side> sides;
+  for (const dvec3& n : {dvec3{1, 0, 0}, dvec3{0, 1, 0}, dvec3{0, 0, 1}}) {
+    sides.push_back(plane(n, dot(n, centre) + half));
+    sides.push_back(plane(n * -1.0, half - dot(n, centre)));
+  }
+  return sides;
+}
+constexpr double kPi = std::numbers::pi;
+constexpr double kCell = 2.0 / 64;
+
+TEST(MeshCreases, OfACube) {
+  // In general position, and on the lattice.
+  for (const dvec3& c : {dvec3{0.011, 0.007, -0.013}, dvec3{0, 0, 0}}) {
+    v1::Scene scene = test_support::scene_of_nodes(R"([{"box": {"half_size": [1, 1, 1], "range": 0.5}}])");
+    for (const double x : {c.x, c.y, c.z}) scene.mutable_nodes(0)->mutable_box()->add_center(x);
+    expect_creases(scene, kCell, box_sides(c, 1), 24);
+  }
+}
+
+TEST(MeshCreases, OfASignedCube) {
+  expect_creases(test_support::scene_of_nodes(
+                     R"([{"box": {"center": [0.011, 0.007, -0.013], "half_size": [1, 1, 1], "law": "SIGNED"}}])"),
+                 kCell, box_sides({0.011, 0.007, -0.013}, 1), 24, 0);
+}
+
+TEST(MeshCreases, OfACubeLessASphere) {
+  std::vector<Side> sides = box_sides({0.011, 0.007, -0.013}, 1);
+  sides.push_back(ball({0.03, -0.02, 1.3}, 0.9, -1));
+  const double height = 1.3 - 0.987, rim = std::sqrt(0.81 - height * height);
+  for (const char* law : {R"("range": 0.5)", R"("law": "SIGNED")"}) {
+    const std::string text = std::string(R"([
+      {"name": "a", "box": {"center": [0.011, 0.007, -0.013], "half_size": [1, 1, 1], )") +
+                             law + R"(}},
+      {"name": "b", "sphere": {"center": [0.03, -0.02, 1.3], "radius": 0.9, )" +
+                             law + R"(}},
+      {"difference": {"children": ["a", "b"]}}])";
+    expect_creases(test_support::scene_of_nodes(text), kCell, sides, 24 + 2 * kPi * rim,
+                   text.find("SIGNED") == std::string::npos ? 0.5 : 0);
+  }
+}
+
+TEST(MeshCreases, OfACleanUnionOfCylinders) {
+  const char* const cylinders = R"([
+    {"name": "a", "cylinder": {"a": [-1, 0.01, 0.02], "b": [1, 0.01, 0.02], "radius": 0.5, "range": 0.4}},
+    {"name": "b", "cylinder": {"a": [0.03, 0.01, -1], "b": [0.03, 0.01, 1], "radius": 0.35, "range": 0.4}},
+    {"OPERATOR": {"children": ["a", "b"]}}])";
+  const std::vector<Side> sides{[](const dvec3& p) { return std::hypot(p.y - 0.01, p.z - 0.02) - 0.5; },
+                                [](const dvec3& p) { return std::hypot(p.x - 0.03, p.y - 0.01) - 0.35; },
+                                plane({1, 0, 0}, 1),
+                                plane({-1, 0, 0}, 1),
+                                plane({0, 0, 1}, 1),
+                                plane({0, 0, -1}, 1)};
+  // Where the thin cylinder leaves the thick one, by the angle around the thin one.
+  double loop = 0;
+  const auto at = [](double t) {
+    const double y = 0.35 * std::sin(t);
+    return dvec3{0.35 * std::cos(t), y, std::sqrt(0.25 - y * y)};
+  };
+  for (int i = 0; i < 10'000; ++i) loop += length(at(2 * kPi * (i + 1) / 10'000) - at(2 * kPi * i / 10'000));
+  for (const std::string op : {"clean", "max"}) {
+    std::string text = cylinders;
+    text.replace(text.find("OPERATOR"), 8, op);
+    expect_creases(test_support::scene_of_nodes(text), kCell, sides, 2 * loop + 4 * kPi * (0.5 + 0.35));
+  }
+}
+
+TEST(MeshCreases, OfACubeWithinASphere) {
+  std::vector<Side> sides = box_sides({0.011, 0.007, -0.013}, 1);
+  sides.push_back(ball({0.011, 0.007, -0.013}, 1.3));
+  for (const bool is_signed : {false, true}) {
+    const std::string law = is_signed ? R"("law": "SIGNED")" : R"("range": 0.5)";
+    const std::string text = R"([
+      {"name": "a", "box": {"center": [0.011, 0.007, -0.013], "half_size": [1, 1, 1], )" +
+                             law + R"(}},
+      {"name": "b", "sphere": {"center": [0.011, 0.007, -0.013], "radius": 1.3, )" +
+                             law + R"(}},
+      {")" + (is_signed ? "max" : "min") +
+                             R"(": {"children": ["a", "b"]}}])";
+    expect_creases(test_support::scene_of_nodes(text), kCell, sides, 6 * 2 * kPi * std::sqrt(0.69),
+                   is_signed ? 0 : 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace isofield::gpu_test
