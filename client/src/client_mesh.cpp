@@ -8,9 +8,6 @@
 namespace isofield {
 namespace {
 
-// What a summary may make us allocate before a byte of the mesh has arrived.
-constexpr std::uint64_t kMaxReserve = 1 << 26;
-
 absl::Status append_part(const v1::MeshPart& part, Mesh& mesh) {
   absl::Status status;
   if (part.has_positions()) status.Update(append_floats(part.positions(), 3, mesh.positions));
@@ -55,9 +52,6 @@ absl::StatusOr<Mesh> Client::mesh(const v1::MeshRequest& request, const Progress
           break;
         case v1::MeshResponse::kSummary:
           mesh.summary = response.summary();
-          mesh.positions.reserve(3 * std::min(mesh.summary.vertices(), kMaxReserve));
-          if (!request.omit_normals()) mesh.normals.reserve(3 * std::min(mesh.summary.vertices(), kMaxReserve));
-          mesh.triangles.reserve(3 * std::min(mesh.summary.triangles(), kMaxReserve));
           break;
         case v1::MeshResponse::kPart:
           status = append_part(response.part(), mesh);

@@ -83,6 +83,7 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   }
   c.limits.queue.delay = std::chrono::microseconds(delay_us);
   c.limits.max_streams = c.max_threads * 3 / 4;
+  c.limits.max_tracked_meshes = c.max_threads / 8;
   return {c, 0};
 }
 

@@ -127,10 +127,11 @@ absl::Status run(const Config& config, const std::string& version) {
   catalog::Catalog catalog(config.limits.max_scenes);
   catalog::OperatorCatalog operators(config.limits.max_operators);
   const rpc::SceneSource scenes(catalog, operators, *engine);
-  rpc::SceneService scene_service(catalog, operators, *engine);
+  rpc::SceneEditor editor(catalog, *engine);
+  rpc::SceneService scene_service(catalog, operators, *engine, editor);
   rpc::OperatorService operator_service(operators, scenes, *engine, config.limits);
   rpc::FieldService field_service(scenes, *engine, config.limits);
-  rpc::MeshService mesh_service(scenes, *engine, config.limits);
+  rpc::MeshService mesh_service(scenes, editor, *engine, config.limits);
   rpc::SurfaceService surface_service(scenes, *engine, config.limits);
   rpc::InfoService info_service(operators, *engine, config.limits, version);
   ISOFIELD_ASSIGN_OR_RETURN(const Running running, start_server(config,

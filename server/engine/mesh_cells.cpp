@@ -9,12 +9,9 @@ std::uint64_t key(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return x | std::uint64_t{y} << 21 | std::uint64_t{z} << 42;
 }
 
-void append_or_move(std::vector<float>& to, std::vector<float> from) {
-  if (to.empty()) {
-    to = std::move(from);
-  } else {
-    to.insert(to.end(), from.begin(), from.end());
-  }
+template <class T>
+void append_all(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
 }
 
 }  // namespace
@@ -40,11 +37,10 @@ std::vector<std::uint32_t> MeshJoiner::number(const MeshCells& part) {
   return triangles;
 }
 
-void MeshJoiner::append(MeshCells part, Mesh& mesh) {
-  const std::vector<std::uint32_t> triangles = number(part);
-  mesh.triangles.insert(mesh.triangles.end(), triangles.begin(), triangles.end());
-  append_or_move(mesh.positions, std::move(part.positions));
-  append_or_move(mesh.normals, std::move(part.normals));
+void MeshJoiner::append(const MeshCells& part, Mesh& mesh) {
+  append_all(mesh.triangles, number(part));
+  append_all(mesh.positions, part.positions);
+  append_all(mesh.normals, part.normals);
   mesh.cells += part.cells;
 }
 

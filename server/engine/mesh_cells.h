@@ -52,7 +52,7 @@ class MeshJoiner {
   // The triangles of `part` by numbers of vertices in the whole mesh.
   std::vector<std::uint32_t> number(const MeshCells& part);
   // Appends the part to `mesh`.
-  void append(MeshCells part, Mesh& mesh);
+  void append(const MeshCells& part, Mesh& mesh);
 
   std::uint32_t vertices() const { return vertices_; }
 

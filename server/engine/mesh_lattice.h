@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "blobtree/lattice.h"
-#include "engine/mesher.h"
+#include "engine/mesh_request.h"
 
 namespace isofield::engine {
 

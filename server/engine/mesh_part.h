@@ -8,7 +8,7 @@
 #include "blobtree/lattice.h"
 #include "engine/kernel_cache.h"
 #include "engine/mesh_cells.h"
-#include "engine/mesher.h"
+#include "engine/mesh_request.h"
 #include "engine/resident_scene.h"
 
 namespace isofield::engine {

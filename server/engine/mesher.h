@@ -12,27 +12,12 @@
 
 #include "blobtree/lattice.h"
 #include "engine/kernel_cache.h"
+#include "engine/mesh_cache.h"
 #include "engine/mesh_cells.h"
+#include "engine/mesh_request.h"
 #include "engine/resident_scene.h"
 
 namespace isofield::engine {
-
-struct MeshRequest {
-  double cell_size = 0;  // > 0
-  // Where the surface leaves these, the mesh is capped within a cell. Absent: nothing is cut.
-  std::optional<blobtree::Box> bounds;
-  double iso = 0.5;  // within ]0, 1[
-  bool with_normals = true;
-  double tolerance = 1e-3;  // of vertices' distances from the surface, as linearised, in cells; > 0
-  std::uint64_t max_cells = 1u << 25;
-  // Only these bricks of the mesh, of which at least one is; the lattice is that of the whole.
-  std::optional<blobtree::BrickBox> part;
-};
-
-struct MeshCallbacks {
-  std::function<void(double)> progress;  // fraction within [0, 1], never decreasing
-  std::function<bool()> cancelled;       // true: give up with CANCELLED
-};
 
 // Thread-safe.
 class Mesher {
@@ -44,13 +29,17 @@ class Mesher {
 
   // The same by bricks, handed over in order of place as they are made; a failure of `deliver` ends the work. A brick
   // holds the same bytes whatever part it is asked with.
-  using Deliver = std::function<absl::Status(MeshCells)>;
+  using Deliver = std::function<absl::Status(const MeshCells&)>;
   absl::Status cells(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
                      const Deliver& deliver);
 
  private:
+  absl::StatusOr<MeshCache::Parts> make(const ResidentScene& scene, const MeshRequest& request,
+                                        const MeshCallbacks& callbacks, const Deliver& deliver);
+
   gpu::Device& device_;
   KernelCache& kernels_;
+  MeshCache cache_;
 };
 
 }  // namespace isofield::engine

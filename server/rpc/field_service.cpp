@@ -7,6 +7,7 @@
 #include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
 #include "rpc/geometry_arguments.h"
+#include "rpc/open_stream.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"
 
@@ -101,21 +102,6 @@ void set_points(engine::PointBatch& batch, const PointArray& points, v1::Evaluat
   batch.xyz = points.xyz();
   batch.out = make_float_tensor({points.size(), engine::components(batch.quantity)}, *response.mutable_result());
 }
-
-// Counted while it lives.
-class OpenStream {
- public:
-  explicit OpenStream(std::atomic<int>& counter) : counter_(counter), count_(++counter) {}
-  ~OpenStream() { --counter_; }
-  OpenStream(const OpenStream&) = delete;
-  OpenStream& operator=(const OpenStream&) = delete;
-  // With this one.
-  int count() const { return count_; }
-
- private:
-  std::atomic<int>& counter_;
-  const int count_;
-};
 
 }  // namespace
 

@@ -14,6 +14,7 @@ struct Limits {
   std::uint64_t max_operators = 10'000;  // custom ones
   // Open EvaluateStream calls: each holds a thread, and the other threads are for the other calls.
   int max_streams = 192;
+  int max_tracked_meshes = 32;  // open TrackMesh calls, which hold threads too
   std::uint64_t max_message_bytes = 64u << 20;
   std::uint64_t max_points_per_message = 1u << 20;
   std::uint64_t max_grid_points = 1ull << 32;

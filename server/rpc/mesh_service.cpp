@@ -5,126 +5,142 @@
 #include <algorithm>
 #include <chrono>
 
-#include "engine/mesh_lattice.h"
 #include "engine/mesh_measure.h"
 #include "engine/status_macros.h"
 #include "rpc/geometry_arguments.h"
+#include "rpc/mesh_messages.h"
+#include "rpc/mesh_tracking.h"
+#include "rpc/open_stream.h"
 #include "rpc/status.h"
+#include "rpc/tensor.h"
 
 namespace isofield::rpc {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Writer = grpc::ServerWriter<v1::MeshResponse>;
 
 constexpr std::size_t kPartBytes = 1u << 20;
 constexpr auto kProgressEvery = std::chrono::milliseconds(100);
-constexpr std::uint32_t kMaxResolution = 1u << 20;
-
-absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const engine::MeshRequest& so_far,
-                                      const blobtree::Tape& tape) {
-  switch (request.cells_case()) {
-    case v1::MeshRequest::kCellSize:
-      return read_length("cell_size", request.cell_size());
-    case v1::MeshRequest::kResolution: {
-      if (request.resolution() < 1 || request.resolution() > kMaxResolution) {
-        return absl::InvalidArgumentError(
-            absl::StrCat("resolution = ", request.resolution(), ": expected a count within [1, ", kMaxResolution, "]"));
-      }
-      const blobtree::Box box = so_far.bounds.value_or(tape.support);
-      if (box.empty()) return 1.0;
-      return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}) / request.resolution();
-    }
-    default:
-      return engine::automatic_cell_size(tape, so_far);
-  }
-}
-
-absl::StatusOr<engine::MeshRequest> read_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
-                                                 const Limits& limits) {
-  engine::MeshRequest r;
-  ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request.bounds_min(), request.bounds_max()));
-  ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
-  ISOFIELD_RETURN_IF_ERROR(check_bounded(tape, r.bounds, r.iso));
-  r.with_normals = !request.omit_normals();
-  r.max_cells = limits.max_mesh_cells;
-  ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_cell_size(request, r, tape));
-  return r;
-}
-
-template <class T>
-void fill(v1::Tensor& tensor, v1::Tensor::DType dtype, std::span<const T> rows) {
-  tensor.set_dtype(dtype);
-  tensor.add_shape(rows.size() / 3);
-  tensor.add_shape(3);
-  tensor.set_data(rows.data(), rows.size_bytes());
-}
 
 // Writes an array of rows of 3 in parts. False: the client is gone.
 template <class T>
-bool write_rows(Writer& writer, const std::vector<T>& rows, v1::Tensor::DType dtype,
+bool write_rows(grpc::ServerWriter<v1::MeshResponse>& writer, const std::vector<T>& rows,
                 v1::Tensor* (v1::MeshPart::*field)()) {
   constexpr std::size_t kRows = kPartBytes / (3 * sizeof(T)) * 3;
   for (std::size_t at = 0; at < rows.size(); at += kRows) {
     v1::MeshResponse response;
-    fill(*(response.mutable_part()->*field)(), dtype, std::span(rows).subspan(at, std::min(kRows, rows.size() - at)));
+    set_rows(std::span(rows).subspan(at, std::min(kRows, rows.size() - at)), 3, *(response.mutable_part()->*field)());
     if (!writer.Write(response)) return false;
   }
   return true;
 }
 
-void fill_summary(const engine::Mesh& mesh, const engine::MeshRequest& request, std::uint64_t scene_version,
-                  Clock::time_point start, v1::MeshSummary& summary) {
-  summary.set_vertices(mesh.positions.size() / 3);
-  summary.set_triangles(mesh.triangles.size() / 3);
-  summary.set_cell_size(request.cell_size);
-  summary.set_cells(mesh.cells);
-  summary.set_seconds(std::chrono::duration<double>(Clock::now() - start).count());
-  summary.set_scene_version(scene_version);
+absl::Status client_gone() {
+  return absl::CancelledError("the client is gone");
+}
+
+// Progress now and then, and whether the client still waits.
+template <class Response>
+engine::MeshCallbacks callbacks_of(grpc::ServerContext& context, grpc::ServerWriter<Response>& writer) {
+  return {
+      .progress =
+          [&writer, last = Clock::now()](double fraction) mutable {
+            const Clock::time_point now = Clock::now();
+            if (now - last < kProgressEvery) return;
+            last = now;
+            Response response;
+            response.mutable_progress()->set_fraction(fraction);
+            writer.Write(response);
+          },
+      .cancelled = [&context] { return context.IsCancelled(); },
+  };
+}
+
+// Nothing: all.
+absl::StatusOr<std::optional<blobtree::BrickBox>> read_part(const v1::MeshBricksRequest& request) {
+  const auto &first = request.first_brick(), &counts = request.brick_counts();
+  if (first.empty() && counts.empty()) return std::nullopt;
+  if (first.size() != 3 || counts.size() != 3) {
+    return absl::InvalidArgumentError(absl::StrCat("first_brick and brick_counts hold ", first.size(), " and ",
+                                                   counts.size(), " numbers: expected 3 each, or none"));
+  }
+  blobtree::BrickBox box;
+  for (int i = 0; i < 3; ++i) {
+    if (counts[i] == 0) {
+      return absl::InvalidArgumentError(absl::StrCat("brick_counts[", i, "] = 0: expected at least 1"));
+    }
+    box.low[i] = first[i];
+    box.high[i] = first[i] + std::min(counts[i], ~first[i]);
+  }
+  return box;
 }
 
 }  // namespace
 
-grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshRequest* request, Writer* writer) {
-  const Clock::time_point start = Clock::now();
+grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshRequest* request,
+                               grpc::ServerWriter<v1::MeshResponse>* writer) {
+  MeshTotals totals;
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
-  const absl::StatusOr<engine::MeshRequest> r = read_request(*request, leased->scene->tape(), limits_);
+  const absl::StatusOr<engine::MeshRequest> r = read_mesh_request(*request, leased->scene->tape(), limits_);
   if (!r.ok()) return to_grpc(r.status());
-
-  Clock::time_point last = start;
-  const engine::MeshCallbacks callbacks{
-      .progress =
-          [&](double fraction) {
-            const Clock::time_point now = Clock::now();
-            if (now - last < kProgressEvery) return;
-            last = now;
-            v1::MeshResponse response;
-            response.mutable_progress()->set_fraction(fraction);
-            writer->Write(response);
-          },
-      .cancelled = [&] { return context->IsCancelled(); },
-  };
-  const absl::StatusOr<engine::Mesh> mesh = engine_.mesher().mesh(*leased->scene, *r, callbacks);
-  if (!mesh.ok()) return to_grpc(mesh.status());
-
+  engine::MeshJoiner joiner;
+  const absl::Status status =
+      engine_.mesher().cells(*leased->scene, *r, callbacks_of(*context, *writer), [&](const engine::MeshCells& cells) {
+        totals.add(cells);
+        const bool written = write_rows(*writer, cells.positions, &v1::MeshPart::mutable_positions) &&
+                             write_rows(*writer, cells.normals, &v1::MeshPart::mutable_normals) &&
+                             write_rows(*writer, joiner.number(cells), &v1::MeshPart::mutable_triangles);
+        return written ? absl::OkStatus() : client_gone();
+      });
+  if (!status.ok()) return to_grpc(status);
   v1::MeshResponse response;
-  fill_summary(*mesh, *r, leased->version, start, *response.mutable_summary());
-  if (writer->Write(response) &&
-      write_rows(*writer, mesh->positions, v1::Tensor::FLOAT32, &v1::MeshPart::mutable_positions) &&
-      write_rows(*writer, mesh->normals, v1::Tensor::FLOAT32, &v1::MeshPart::mutable_normals) &&
-      write_rows(*writer, mesh->triangles, v1::Tensor::UINT32, &v1::MeshPart::mutable_triangles)) {
-    return grpc::Status::OK;
+  fill_summary(totals, *r, *leased->scene, leased->version, *response.mutable_summary());
+  return writer->Write(response) ? grpc::Status::OK : to_grpc(client_gone());
+}
+
+grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::MeshBricksRequest* request,
+                                        grpc::ServerWriter<v1::MeshBricksResponse>* writer) {
+  MeshTotals totals;
+  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->mesh().scene());
+  if (!leased.ok()) return to_grpc(leased.status());
+  absl::StatusOr<engine::MeshRequest> r = read_mesh_request(request->mesh(), leased->scene->tape(), limits_);
+  if (!r.ok()) return to_grpc(r.status());
+  auto part = read_part(*request);
+  if (!part.ok()) return to_grpc(part.status());
+  r->part = *part;
+  const absl::Status status =
+      engine_.mesher().cells(*leased->scene, *r, callbacks_of(*context, *writer), [&](const engine::MeshCells& cells) {
+        totals.add(cells);
+        const bool written = write_bricks(cells, [&](v1::MeshBricks bricks) {
+          v1::MeshBricksResponse response;
+          *response.mutable_bricks() = std::move(bricks);
+          return writer->Write(response);
+        });
+        return written ? absl::OkStatus() : client_gone();
+      });
+  if (!status.ok()) return to_grpc(status);
+  v1::MeshBricksResponse response;
+  fill_summary(totals, *r, *leased->scene, leased->version, *response.mutable_summary());
+  return writer->Write(response) ? grpc::Status::OK : to_grpc(client_gone());
+}
+
+grpc::Status MeshService::TrackMesh(grpc::ServerContext* context, TrackMeshStream* stream) {
+  const OpenStream open(tracked_);
+  if (open.count() > limits_.max_tracked_meshes) {
+    return to_grpc(absl::ResourceExhaustedError(absl::StrCat(
+        limits_.max_tracked_meshes,
+        " meshes are tracked, as many as are admitted (an eighth of --max-threads): end one, or try again")));
   }
-  return {grpc::StatusCode::CANCELLED, "the client is gone"};
+  return to_grpc(MeshTracking(scenes_, editor_, engine_, limits_, *context, *stream).run());
 }
 
 grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRequest* request,
                                   v1::MeasureResponse* response) {
-  const Clock::time_point start = Clock::now();
+  MeshTotals totals;
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
-  absl::StatusOr<engine::MeshRequest> r = read_request(*request, leased->scene->tape(), limits_);
+  absl::StatusOr<engine::MeshRequest> r = read_mesh_request(*request, leased->scene->tape(), limits_);
   if (!r.ok()) return to_grpc(r.status());
   r->with_normals = false;
   const engine::MeshCallbacks callbacks{.cancelled = [&] { return context->IsCancelled(); }};
@@ -139,7 +155,10 @@ grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRe
     set_vector(measures.bounds.min, *response->mutable_bounds_min());
     set_vector(measures.bounds.max, *response->mutable_bounds_max());
   }
-  fill_summary(*mesh, *r, leased->version, start, *response->mutable_summary());
+  totals.vertices = mesh->positions.size() / 3;
+  totals.triangles = mesh->triangles.size() / 3;
+  totals.cells = mesh->cells;
+  fill_summary(totals, *r, *leased->scene, leased->version, *response->mutable_summary());
   return grpc::Status::OK;
 }
 

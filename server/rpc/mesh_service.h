@@ -1,25 +1,34 @@
 // MeshService of the contract.
 #pragma once
 
+#include <atomic>
+
 #include "engine/engine.h"
 #include "isofield/v1/mesh_service.grpc.pb.h"
 #include "rpc/limits.h"
+#include "rpc/mesh_tracking.h"
+#include "rpc/scene_editor.h"
 #include "rpc/scene_source.h"
 
 namespace isofield::rpc {
 
 class MeshService final : public v1::MeshService::Service {
  public:
-  MeshService(const SceneSource& scenes, engine::Engine& engine, const Limits& limits)
-      : scenes_(scenes), engine_(engine), limits_(limits) {}
+  MeshService(const SceneSource& scenes, SceneEditor& editor, engine::Engine& engine, const Limits& limits)
+      : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits) {}
 
   grpc::Status Mesh(grpc::ServerContext*, const v1::MeshRequest*, grpc::ServerWriter<v1::MeshResponse>*) override;
+  grpc::Status GetMeshBricks(grpc::ServerContext*, const v1::MeshBricksRequest*,
+                             grpc::ServerWriter<v1::MeshBricksResponse>*) override;
+  grpc::Status TrackMesh(grpc::ServerContext*, TrackMeshStream*) override;
   grpc::Status Measure(grpc::ServerContext*, const v1::MeshRequest*, v1::MeasureResponse*) override;
 
  private:
   const SceneSource& scenes_;
+  SceneEditor& editor_;
   engine::Engine& engine_;
   const Limits& limits_;
+  std::atomic<int> tracked_ = 0;
 };
 
 }  // namespace isofield::rpc

@@ -1,0 +1,40 @@
+// Meshes that were made, kept while their scene is resident and room is left: the same request again costs no device
+// time.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "engine/mesh_cells.h"
+#include "engine/mesh_request.h"
+#include "engine/resident_scene.h"
+
+namespace isofield::engine {
+
+// Thread-safe. The least recently used give way.
+class MeshCache {
+ public:
+  using Parts = std::vector<std::shared_ptr<const MeshCells>>;
+
+  explicit MeshCache(std::uint64_t max_bytes = std::uint64_t{256} << 20) : max_bytes_(max_bytes) {}
+
+  // Null: not kept.
+  std::shared_ptr<const Parts> find(const ResidentScene& scene, const MeshRequest& request);
+  void keep(const ResidentScene& scene, const MeshRequest& request, Parts parts);
+
+ private:
+  struct Entry {
+    std::weak_ptr<const ResidentScene> scene;
+    MeshRequest request;
+    std::shared_ptr<const Parts> parts;
+    std::uint64_t bytes;
+  };
+  const std::uint64_t max_bytes_;
+  std::mutex mutex_;
+  std::list<Entry> entries_;  // the last used first
+};
+
+}  // namespace isofield::engine

@@ -1,0 +1,34 @@
+// What is asked of the mesher.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "blobtree/lattice.h"
+
+namespace isofield::engine {
+
+struct MeshRequest {
+  double cell_size = 0;  // > 0
+  // Where the surface leaves these, the mesh is capped within a cell. Absent: nothing is cut.
+  std::optional<blobtree::Box> bounds;
+  double iso = 0.5;  // within ]0, 1[
+  bool with_normals = true;
+  double tolerance = 1e-3;  // of vertices' distances from the surface, as linearised, in cells; > 0
+  std::uint64_t max_cells = 1u << 25;
+  // Only these bricks of the mesh, of which at least one is; the lattice is that of the whole.
+  std::optional<blobtree::BrickBox> part;
+  // Bricks after which a layer is the last of a part that is made and handed over at once. Larger parts repeat less of
+  // what lies around them, smaller ones are sent sooner and take less memory.
+  std::size_t bricks_at_once = 1u << 16;
+
+  bool operator==(const MeshRequest&) const = default;
+};
+
+struct MeshCallbacks {
+  std::function<void(double)> progress;  // fraction within [0, 1], never decreasing
+  std::function<bool()> cancelled;       // true: give up with CANCELLED
+};
+
+}  // namespace isofield::engine

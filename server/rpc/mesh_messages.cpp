@@ -1,0 +1,97 @@
+#include "rpc/mesh_messages.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+
+#include "engine/mesh_lattice.h"
+#include "engine/status_macros.h"
+#include "rpc/geometry_arguments.h"
+#include "rpc/tensor.h"
+
+namespace isofield::rpc {
+namespace {
+
+// Of one message; a brick holds far less.
+constexpr std::size_t kMessageBytes = 1u << 20;
+constexpr std::uint32_t kMaxResolution = 1u << 20;
+
+absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const engine::MeshRequest& so_far,
+                                      const blobtree::Tape& tape) {
+  switch (request.cells_case()) {
+    case v1::MeshRequest::kCellSize:
+      return read_length("cell_size", request.cell_size());
+    case v1::MeshRequest::kResolution: {
+      if (request.resolution() < 1 || request.resolution() > kMaxResolution) {
+        return absl::InvalidArgumentError(
+            absl::StrCat("resolution = ", request.resolution(), ": expected a count within [1, ", kMaxResolution, "]"));
+      }
+      const blobtree::Box box = so_far.bounds.value_or(tape.support);
+      if (box.empty()) return 1.0;
+      return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}) / request.resolution();
+    }
+    default:
+      return engine::automatic_cell_size(tape, so_far);
+  }
+}
+
+}  // namespace
+
+absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
+                                                      const Limits& limits) {
+  engine::MeshRequest r;
+  ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request.bounds_min(), request.bounds_max()));
+  ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
+  ISOFIELD_RETURN_IF_ERROR(check_bounded(tape, r.bounds, r.iso));
+  r.with_normals = !request.omit_normals();
+  r.max_cells = limits.max_mesh_cells;
+  ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_cell_size(request, r, tape));
+  return r;
+}
+
+std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,
+                        v1::MeshBricks& message) {
+  std::vector<std::uint32_t> rows;
+  std::size_t at = first, vertices = 0, triangles = 0;
+  const std::size_t vertex_bytes = cells.normals.empty() ? 12 : 24;
+  while (at < cells.bricks.size() && vertices * vertex_bytes + triangles * 12 < kMessageBytes) {
+    const engine::MeshBrick& b = cells.bricks[at++];
+    rows.insert(rows.end(), {b.x, b.y, b.z, b.vertices, b.triangles});
+    vertices += b.vertices;
+    triangles += b.triangles;
+  }
+  set_rows(std::span<const std::uint32_t>(rows), 5, *message.mutable_bricks());
+  set_rows(std::span(cells.positions).subspan(3 * vertex, 3 * vertices), 3, *message.mutable_positions());
+  if (!cells.normals.empty()) {
+    set_rows(std::span(cells.normals).subspan(3 * vertex, 3 * vertices), 3, *message.mutable_normals());
+  }
+  set_rows(std::span(cells.corners).subspan(3 * triangle, 3 * triangles), 3, *message.mutable_corners());
+  vertex += vertices;
+  triangle += triangles;
+  return at;
+}
+
+void MeshTotals::add(const engine::MeshCells& part) {
+  vertices += part.positions.size() / 3;
+  triangles += part.corners.size() / 3;
+  cells += part.cells;
+}
+
+void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const engine::ResidentScene& scene,
+                  std::uint64_t scene_version, v1::MeshSummary& summary) {
+  summary.set_vertices(totals.vertices);
+  summary.set_triangles(totals.triangles);
+  summary.set_cell_size(request.cell_size);
+  summary.set_cells(totals.cells);
+  summary.set_seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - totals.start).count());
+  summary.set_scene_version(scene_version);
+  if (scene.tape().support.empty()) return;
+  const auto lattice = engine::mesh_lattice(scene.tape(), request);
+  if (!lattice.ok()) return;
+  set_vector(lattice->origin, *summary.mutable_lattice_origin());
+  for (const std::uint32_t cells : lattice->cells) {
+    summary.add_lattice_bricks((cells + blobtree::kBrickCells - 1) / blobtree::kBrickCells);
+  }
+}
+
+}  // namespace isofield::rpc

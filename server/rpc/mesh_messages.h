@@ -1,0 +1,49 @@
+// Mesh requests as they are sent, and meshes as they are answered.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <chrono>
+#include <cstdint>
+
+#include "engine/mesh_cells.h"
+#include "engine/mesh_request.h"
+#include "engine/resident_scene.h"
+#include "isofield/v1/mesh_service.pb.h"
+#include "rpc/limits.h"
+
+namespace isofield::rpc {
+
+absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
+                                                      const Limits& limits);
+
+// Calls write(MeshBricks) with `cells` in pieces that messages hold, at least one; false from it ends that.
+template <class Write>
+bool write_bricks(const engine::MeshCells& cells, const Write& write);
+
+// Bricks `first` and on: as many as a message holds. `vertex` and `triangle` are those before them, and move on.
+std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,
+                        v1::MeshBricks& message);
+
+template <class Write>
+bool write_bricks(const engine::MeshCells& cells, const Write& write) {
+  std::size_t vertex = 0, triangle = 0;
+  for (std::size_t at = 0; at < cells.bricks.size();) {
+    v1::MeshBricks message;
+    at = fill_bricks(cells, at, vertex, triangle, message);
+    if (!write(std::move(message))) return false;
+  }
+  return true;
+}
+
+// What a mesh is summed up from, while it is made.
+struct MeshTotals {
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  std::uint64_t vertices = 0, triangles = 0, cells = 0;
+
+  void add(const engine::MeshCells& part);
+};
+void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const engine::ResidentScene& scene,
+                  std::uint64_t scene_version, v1::MeshSummary& summary);
+
+}  // namespace isofield::rpc

@@ -1,0 +1,100 @@
+#include "rpc/mesh_tracking.h"
+
+#include <absl/strings/str_cat.h>
+
+#include "engine/status_macros.h"
+#include "rpc/tensor.h"
+
+namespace isofield::rpc {
+
+absl::Status MeshTracking::run() {
+  v1::TrackMeshRequest request;
+  while (stream_.Read(&request)) {
+    if (tracker_) {
+      ISOFIELD_RETURN_IF_ERROR(follow(request));
+    } else if (request.message_case() == v1::TrackMeshRequest::kBegin) {
+      ISOFIELD_RETURN_IF_ERROR(begin(request.begin()));
+    } else {
+      return absl::InvalidArgumentError("the first message of the stream: expected begin, which says what to mesh");
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status MeshTracking::begin(const v1::MeshRequest& request) {
+  if (request.scene().ref_case() != v1::SceneRef::kName) {
+    return absl::InvalidArgumentError("begin.scene: expected the name of a scene that the server keeps");
+  }
+  scene_ = request.scene();
+  ISOFIELD_ASSIGN_OR_RETURN(LeasedScene leased, scenes_.lease(scene_));
+  ISOFIELD_ASSIGN_OR_RETURN(request_, read_mesh_request(request, leased.scene->tape(), limits_));
+  tracker_.emplace(engine_.mesher(), request_);
+  return answer(std::move(leased.scene), leased.version);
+}
+
+absl::Status MeshTracking::follow(const v1::TrackMeshRequest& request) {
+  switch (request.message_case()) {
+    case v1::TrackMeshRequest::kEdit: {
+      const v1::EditParametersRequest& edit = request.edit();
+      if (!edit.name().empty() && edit.name() != scene_.name()) {
+        return absl::InvalidArgumentError(absl::StrCat("edit.name = '", edit.name(), "': expected none, or the name '",
+                                                       scene_.name(), "' of the scene that this stream follows"));
+      }
+      ISOFIELD_ASSIGN_OR_RETURN(StoredScene stored,
+                                editor_.edit(scene_.name(), read_edits(edit.edits()), edit.expected_version()));
+      return answer(std::move(stored.lease), stored.entry.version);
+    }
+    case v1::TrackMeshRequest::kRefresh: {
+      ISOFIELD_ASSIGN_OR_RETURN(LeasedScene leased, scenes_.lease(scene_));
+      return answer(std::move(leased.scene), leased.version);
+    }
+    default:
+      return absl::InvalidArgumentError("expected edit or refresh: begin is the stream's first message alone");
+  }
+}
+
+absl::Status MeshTracking::answer(engine::SceneLease scene, std::uint64_t scene_version) {
+  MeshTotals totals;
+  const engine::ResidentScene& resident = *scene;
+  const engine::SceneLease held = scene;
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::MeshTracker::Update update,
+                            tracker_->update(std::move(scene), {.cancelled = [&] { return context_.IsCancelled(); }}));
+  ++version_;
+  // The last message is held back until it is known to be that.
+  v1::MeshUpdate next;
+  next.set_is_whole(update.is_whole);
+  if (!update.removed.empty()) {
+    std::vector<std::uint32_t> rows;
+    for (const auto& brick : update.removed) rows.insert(rows.end(), brick.begin(), brick.end());
+    set_rows(std::span<const std::uint32_t>(rows), 3, *next.mutable_removed());
+  }
+  absl::Status status;
+  for (const engine::MeshCells& cells : update.changed) {
+    totals.cells += cells.cells;
+    const bool written = write_bricks(cells, [&](v1::MeshBricks bricks) {
+      if (next.has_bricks()) {
+        next.set_scene_version(scene_version);
+        status = write(std::exchange(next, {}));
+      }
+      *next.mutable_bricks() = std::move(bricks);
+      return status.ok();
+    });
+    if (!written) return status;
+  }
+  totals.vertices = tracker_->vertices();
+  totals.triangles = tracker_->triangles();
+  next.set_scene_version(scene_version);
+  next.set_is_last(true);
+  fill_summary(totals, request_, resident, scene_version, *next.mutable_summary());
+  return write(std::move(next));
+}
+
+absl::Status MeshTracking::write(v1::MeshUpdate update) {
+  update.set_version(version_);
+  v1::TrackMeshResponse response;
+  *response.mutable_update() = std::move(update);
+  if (stream_.Write(response)) return absl::OkStatus();
+  return absl::CancelledError("the client is gone");
+}
+
+}  // namespace isofield::rpc

@@ -1,0 +1,51 @@
+// One TrackMesh call.
+#pragma once
+
+#include <absl/status/status.h>
+#include <grpcpp/grpcpp.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "engine/engine.h"
+#include "engine/mesh_tracker.h"
+#include "isofield/v1/mesh_service.grpc.pb.h"
+#include "rpc/limits.h"
+#include "rpc/mesh_messages.h"
+#include "rpc/scene_editor.h"
+#include "rpc/scene_source.h"
+
+namespace isofield::rpc {
+
+using TrackMeshStream = grpc::ServerReaderWriter<v1::TrackMeshResponse, v1::TrackMeshRequest>;
+
+class MeshTracking {
+ public:
+  MeshTracking(const SceneSource& scenes, SceneEditor& editor, engine::Engine& engine, const Limits& limits,
+               grpc::ServerContext& context, TrackMeshStream& stream)
+      : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits), context_(context), stream_(stream) {}
+
+  // Until the client is done.
+  absl::Status run();
+
+ private:
+  absl::Status begin(const v1::MeshRequest& request);
+  absl::Status follow(const v1::TrackMeshRequest& request);
+  absl::Status answer(engine::SceneLease scene, std::uint64_t scene_version);
+  absl::Status write(v1::MeshUpdate update);
+
+  const SceneSource& scenes_;
+  SceneEditor& editor_;
+  engine::Engine& engine_;
+  const Limits& limits_;
+  grpc::ServerContext& context_;
+  TrackMeshStream& stream_;
+
+  v1::SceneRef scene_;
+  engine::MeshRequest request_;
+  std::optional<engine::MeshTracker> tracker_;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace isofield::rpc
