@@ -1,6 +1,7 @@
 #include "blobtree/intervals.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -71,6 +72,22 @@ Interval bt2(const Operation& o, const Interval& a, const Interval& b) {
   return with_grown_weights(o, padded(lo, hi));
 }
 
+// Close above the blend of the smooth silhouette at theta = 0, the most it is at any angle; high >= low.
+double most_of_blend(double high, double low) {
+  if (high <= 0) return high;
+  // M(high, low) = high q(low / high). The profile is convex: its chords lie above it.
+  constexpr int kChords = 64;
+  static const auto profile = [] {
+    std::array<double, kChords + 2> q{};
+    for (int i = 0; i <= kChords; ++i) q[i] = operators::Silhouette{}.profile(static_cast<double>(i) / kChords).v;
+    q[kChords + 1] = q[kChords];
+    return q;
+  }();
+  const double at = std::max(low / high, 0.0) * kChords;
+  const int i = static_cast<int>(at);
+  return high * (profile[i] + (profile[i + 1] - profile[i]) * (at - i)) + kValueRoom * std::max(high, 1.0);
+}
+
 // Operands in their order; unions.
 Interval union_interval(Operator op, const Operation& o, const Interval& a, const Interval& b) {
   switch (op) {
@@ -85,6 +102,8 @@ Interval union_interval(Operator op, const Operation& o, const Interval& a, cons
     case Operator::kRicci:
       return {ricci(a.lo, b.lo, o.what->exponent), ricci(a.hi, b.hi, o.what->exponent) + kValueRoom};
     case Operator::kGradient:
+      // Increases with either field.
+      return {std::max(a.lo, b.lo), most_of_blend(std::max(a.hi, b.hi), std::min(a.hi, b.hi))};
     case Operator::kGradientTable:
       // Between the maximum and the blend at theta = 0, whatever the angle.
       return {std::max(a.lo, b.lo), std::max(a.hi, b.hi) + o.silhouette_bound * std::min(a.hi, b.hi) + kValueRoom};

@@ -9,10 +9,6 @@
 namespace isofield::blobtree {
 namespace {
 
-// What float32 evaluation of a length may differ from exact arithmetic, relative to the coordinates it is computed
-// from.
-constexpr double kLengthRoom = 1e-6;
-
 Instruction with_operator(Instruction i, Operator op) {
   i.code = (i.code & 0xff) | static_cast<std::uint32_t>(op) << 8;
   return i;
@@ -28,15 +24,13 @@ bool is_n_ary(Operator op) {
 
 }  // namespace
 
-Pruner::Value Pruner::leaf_value(const Leaf& leaf, const Box& box, const dvec3& centre, double radius) const {
+Pruner::Value Pruner::leaf_value(const Leaf& leaf, const Box& box, const CentredBox& centred) const {
   const bool is_signed = leaf.law == operators::Law::kSigned;
   if (!is_signed && !leaf.support.touches(box)) return {{0, 0}, 0, true};
-  const double d = leaf.distance(centre);
-  const double size = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z), radius}) * leaf.stretch;
-  const double reach = radius * leaf.stretch + kLengthRoom * (size + leaf.range + leaf.size[0] + leaf.size[1]);
-  if (is_signed) return {{(d - reach) * leaf.per_distance, (d + reach) * leaf.per_distance}, 0};
-  if (d - reach >= leaf.range) return {{0, 0}, 0, true};
-  return {{std::max(soften(d + reach, leaf.range) - kValueRoom, 0.0), soften(d - reach, leaf.range) + kValueRoom}, 0};
+  const Interval d = distance_bounds(leaf, centred);
+  if (is_signed) return {{d.lo * leaf.per_distance, d.hi * leaf.per_distance}, 0};
+  if (d.lo >= leaf.range) return {{0, 0}, 0, true};
+  return {{std::max(soften(d.hi, leaf.range) - kValueRoom, 0.0), soften(d.lo, leaf.range) + kValueRoom}, 0};
 }
 
 void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vector<Instruction>& out) {
@@ -167,8 +161,7 @@ void Pruner::join_all(const Instruction& i, std::vector<Instruction>& out) {
 
 Pruned Pruner::prune(const std::vector<Instruction>& source, std::size_t begin, std::size_t count, const Box& box,
                      std::vector<Instruction>& out) {
-  const dvec3 centre = (box.min + box.max) * 0.5;
-  const double radius = length(box.max - box.min) * 0.5;
+  const CentredBox centred(box);
   stack_.clear();
   for (std::size_t n = 0; n < count; ++n) {
     const Instruction i = source[begin + n];
@@ -187,7 +180,7 @@ Pruned Pruner::prune(const std::vector<Instruction>& source, std::size_t begin, 
       stack_.pop_back();
       fused = false;
     } else if (i.is_leaf()) {
-      right = leaf_value(tape_.leaves[i.index], box, centre, radius);
+      right = leaf_value(tape_.leaves[i.index], box, centred);
       right.begin = out.size();
     } else {
       // The constant 0: what is taken away where nothing is left to take, or what a conversion starts from.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "blobtree/intervals.h"
+#include "blobtree/leaf_bounds.h"
 #include "blobtree/tape.h"
 
 namespace isofield::blobtree {
@@ -34,7 +35,7 @@ class Pruner {
     std::size_t begin;
     bool is_zero = false;
   };
-  Value leaf_value(const Leaf& leaf, const Box& box, const dvec3& centre, double radius) const;
+  Value leaf_value(const Leaf& leaf, const Box& box, const CentredBox& centred) const;
   // Combines the value on top of the stack with the right operand of i: a leaf fused into i, or (`fused` false) a value
   // whose code has been appended already.
   void join(const Instruction& i, const Value& right, bool fused, std::vector<Instruction>& out);

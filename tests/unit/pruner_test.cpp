@@ -90,6 +90,19 @@ TEST(Pruner, BoundsHoldAndPrunedTapesGiveTheSameBits) {
   EXPECT_LT(totals.pruned * 2, totals.whole);
 }
 
+// Sums, maxima and gradient blends of every opening and silhouette, nested.
+TEST(Pruner, BoundsOfGradientBlendsHold) {
+  Totals totals;
+  for (std::uint64_t seed = 1000; seed < 1150; ++seed) {
+    const int nodes = 2 + static_cast<int>(seed % 30);
+    check_scene(seed,
+                read_or_die(test_support::random_scene(seed, {.nodes = nodes, .cuts = false, .all_operators = false})),
+                totals);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_LT(totals.pruned * 2, totals.whole);
+}
+
 TEST(Pruner, GradientsOfPrunedTapesAreTheSameToo) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const Tape tape = compile_or_die(read_or_die(test_support::random_scene(seed, {.nodes = 30, .cuts = false})));

@@ -1,0 +1,61 @@
+#include "blobtree/intervals.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "blobtree/operation.h"
+#include "operators/gradient_blend.h"
+#include "support/random_scene.h"
+
+namespace isofield::blobtree {
+namespace {
+
+using operators::Silhouette;
+using test_support::Random;
+
+Operation blend_of(const Silhouette& silhouette) {
+  auto op = std::make_shared<operators::Operator>();
+  op->kind = operators::Kind::kGradient;
+  op->silhouette = silhouette;
+  SilhouetteBounds bounds;
+  return operation_of(std::move(op), operators::Law::kPositive, 2, bounds);
+}
+
+TEST(Intervals, OfGradientBlendsHoldAtEveryAngle) {
+  Random random(1);
+  for (const Silhouette& silhouette :
+       {Silhouette{}, Silhouette{Silhouette::Kind::kBulge, 0.4}, Silhouette{Silhouette::Kind::kBulge, 1}}) {
+    const Operation o = blend_of(silhouette);
+    for (int n = 0; n < 3000; ++n) {
+      // Sums have fields above 1.
+      const double scale = n % 5 == 0 ? 4 : 1;
+      const auto interval = [&] {
+        const double lo = random.chance(0.2) ? 0 : random.number(0, scale);
+        return Interval{lo, lo + random.number(0, 0.3)};
+      };
+      const Interval a = interval(), b = interval();
+      const Interval g = binary_interval(o.op, o, {}, a, b);
+      for (int i = 0; i < 6; ++i) {
+        // Upper ends and the widest blend first.
+        const double f1 = i < 2 ? a.hi : random.number(a.lo, a.hi), f2 = i < 2 ? b.hi : random.number(b.lo, b.hi);
+        const double theta = i == 0 ? 0 : random.number(0, std::numbers::pi / 4);
+        const double value = operators::gradient_blend(f1, f2, theta, silhouette).g;
+        ASSERT_GE(value, g.lo) << f1 << " " << f2 << " " << theta;
+        ASSERT_LE(value, g.hi) << f1 << " " << f2 << " " << theta;
+      }
+    }
+  }
+}
+
+TEST(Intervals, OfSmoothGradientBlendsAreReached) {
+  const Operation o = blend_of({});
+  for (const double ratio : {0.0, 0.1, 0.35, 0.5, 0.77, 1.0}) {
+    const double high = 0.6, most = operators::gradient_blend(high, ratio * high, 0, {}).g;
+    EXPECT_NEAR(binary_interval(o.op, o, {}, {0, high}, {0, ratio * high}).hi, most, 1e-4) << ratio;
+    EXPECT_NEAR(binary_interval(o.op, o, {}, {0, ratio * high}, {0, high}).hi, most, 1e-4) << ratio;
+  }
+}
+
+}  // namespace
+}  // namespace isofield::blobtree
