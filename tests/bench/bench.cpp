@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "engine/engine.h"
+#include "engine/mesh_tracker.h"
 #include "isofield/import.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
@@ -86,10 +87,12 @@ v1::Scene neuron(ImportOperator op) {
 
 void mesh(benchmark::State& state, const v1::Scene& scene, double cell) {
   const engine::SceneLease lease = resident(scene);
+  static std::size_t seen = 1u << 16;
   std::size_t vertices = 0, cells = 0;
   (void)the_engine().mesher().mesh(*lease, {.cell_size = cell}, {});  // kernels compile when they first run
   for (auto _ : state) {
-    const auto m = the_engine().mesher().mesh(*lease, {.cell_size = cell}, {});
+    // Requests that differ by what makes no difference: a mesh that was made is kept.
+    const auto m = the_engine().mesher().mesh(*lease, {.cell_size = cell, .bricks_at_once = ++seen}, {});
     if (!m.ok()) return state.SkipWithError(std::string(m.status().message()).c_str());
     vertices = m->positions.size() / 3;
     cells = m->cells;
@@ -97,6 +100,37 @@ void mesh(benchmark::State& state, const v1::Scene& scene, double cell) {
   state.counters["vertices"] = static_cast<double>(vertices);
   state.counters["cells"] = static_cast<double>(cells);
   state.counters["primitives"] = static_cast<double>(lease->tape().leaves.size());
+}
+
+void mesh_again(benchmark::State& state, const v1::Scene& scene, double cell) {
+  const engine::SceneLease lease = resident(scene);
+  (void)the_engine().mesher().mesh(*lease, {.cell_size = cell}, {});
+  for (auto _ : state) {
+    const auto m = the_engine().mesher().mesh(*lease, {.cell_size = cell}, {});
+    if (!m.ok()) return state.SkipWithError(std::string(m.status().message()).c_str());
+  }
+}
+
+// A primitive moved to and fro by a cell, and its mesh followed: from the edited scene to the bricks that changed.
+void track(benchmark::State& state, v1::Scene scene, double cell) {
+  engine::SceneLease lease = resident(scene);
+  engine::MeshTracker tracker(the_engine().mesher(), {.cell_size = cell});
+  if (!tracker.update(lease, {}).ok()) return state.SkipWithError("no mesh");
+  auto* sphere = scene.mutable_nodes(0)->mutable_sphere();
+  double step = cell;
+  std::size_t bricks = 0;
+  for (auto _ : state) {
+    sphere->set_center(0, sphere->center(0) + step);
+    step = -step;
+    auto edited = the_engine().edit(*lease, scene, {0}, {});
+    if (!edited.ok()) return state.SkipWithError("no edit");
+    lease = *std::move(edited);
+    const auto update = tracker.update(lease, {});
+    if (!update.ok() || update->is_whole) return state.SkipWithError("no local update");
+    bricks = 0;
+    for (const auto& cells : update->changed) bricks += cells.bricks.size();
+  }
+  state.counters["bricks"] = static_cast<double>(bricks);
 }
 
 void points(benchmark::State& state, const v1::Scene& scene, Quantity quantity, std::size_t count = 1 << 20) {
@@ -136,9 +170,12 @@ void register_all() {
         points(s, soft_spheres(count, join), Quantity::kValueAndGradient);
       });
     }
-    add("points/" + spheres + " sum/value and gradient, 64 points", [count](benchmark::State& s) {
-      points(s, soft_spheres(count, Join::kSum), Quantity::kValueAndGradient, 64);
-    });
+    add("points/" + spheres + " sum/value and gradient, 64 points",
+        [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), Quantity::kValueAndGradient, 64); });
+    add("track/" + spheres + " sum/one moved by a cell/128 cells",
+        [count](benchmark::State& s) { track(s, soft_spheres(count, Join::kSum), 3.0 / 128); });
+    add("mesh/" + spheres + " sum/128 cells/seen before",
+        [count](benchmark::State& s) { mesh_again(s, soft_spheres(count, Join::kSum), 3.0 / 128); });
     add("points/" + spheres + " sum/value",
         [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), Quantity::kValue); });
   }
