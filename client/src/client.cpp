@@ -1,5 +1,6 @@
 #include "isofield/client.h"
 
+#include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
@@ -109,6 +110,17 @@ absl::StatusOr<v1::GetInfoResponse> Client::info() {
   });
   if (!status.ok()) return status;
   return response;
+}
+
+std::unique_ptr<SharedMemory> Client::Impl::take_shared_memory(std::size_t bytes) {
+  if (!options.shared_memory || !absl::StartsWith(address, "unix:")) return nullptr;
+  if (auto kept = shared_memory.take()) return kept;
+  v1::GetInfoResponse info;
+  const auto status =
+      call([&](grpc::ClientContext* context) { return infos->GetInfo(context, v1::GetInfoRequest(), &info); });
+  if (!status.ok() || info.shared_memory_socket().empty()) return nullptr;
+  auto opened = SharedMemory::open(info.shared_memory_socket(), bytes);
+  return opened.ok() ? *std::move(opened) : nullptr;
 }
 
 v1::SceneRef scene_by_name(const std::string& name) {

@@ -1,6 +1,7 @@
 #include <absl/strings/str_cat.h>
 
 #include <condition_variable>
+#include <cstring>
 #include <deque>
 #include <mutex>
 #include <thread>
@@ -19,17 +20,23 @@ v1::Quantity quantity_of(bool gradient) {
   return gradient ? v1::VALUE_AND_GRADIENT : v1::VALUE;
 }
 
+// In shared memory a chunk has a slot: its points, then its results. Few, so that they stay in the processor's cache.
+constexpr std::size_t kSlots = 4;
+constexpr std::size_t kSlotPoints = 3 * sizeof(float) * Client::kChunkPoints;
+constexpr std::size_t kSlotBytes = kSlotPoints + 4 * sizeof(float) * Client::kChunkPoints;
+
 // One streamed evaluation: a thread of its own writes chunks, the caller's thread reads results. The chunks between
 // the two wait in `in_flight_`; only that queue and the flags are shared.
 class StreamedEvaluation {
  public:
   using Stream = grpc::ClientReaderWriter<v1::EvaluateStreamRequest, v1::EvaluateResponse>;
 
-  StreamedEvaluation(v1::FieldService::Stub& stub, grpc::ClientContext& context)
-      : context_(context), stream_(stub.EvaluateStream(&context)) {}
+  // `memory`: kSlots slots, or null.
+  StreamedEvaluation(v1::FieldService::Stub& stub, grpc::ClientContext& context, const SharedMemory* memory)
+      : context_(context), memory_(memory), stream_(stub.EvaluateStream(&context)) {}
 
-  absl::Status run(const v1::SceneRef& scene, bool gradient, const Client::PointSource& source,
-                   const Client::ResultSink& sink, const std::string& address) {
+  absl::Status run(const v1::SceneRef& scene, bool gradient, const ChunkSource& source, const Client::ResultSink& sink,
+                   const std::string& address) {
     std::thread writer([&] { write_all(scene, gradient, source); });
     const absl::Status read_status = read_all(gradient ? 4 : 1, sink);
     if (!read_status.ok()) context_.TryCancel();
@@ -49,13 +56,14 @@ class StreamedEvaluation {
   }
 
  private:
-  void write_all(const v1::SceneRef& scene, bool gradient, const Client::PointSource& source) {
+  void write_all(const v1::SceneRef& scene, bool gradient, const ChunkSource& source) {
     v1::EvaluateStreamRequest request;
     *request.mutable_scene() = scene;
     request.set_quantity(quantity_of(gradient));
-    for (bool first = true;; first = false) {
-      std::vector<float> xyz;
-      source_status_ = source(xyz);
+    for (std::size_t number = 0;; ++number) {
+      Chunk chunk;
+      source_status_ = source(chunk);
+      const std::span<const float> xyz = chunk.xyz;
       if (source_status_.ok() && (xyz.size() % 3 != 0 || xyz.size() > 3 * Client::kChunkPoints)) {
         source_status_ = absl::InvalidArgumentError(absl::StrCat("a chunk of points has ", xyz.size(),
                                                                  " coordinates; expected a multiple of 3 up to ",
@@ -67,62 +75,108 @@ class StreamedEvaluation {
       }
       if (xyz.empty()) {
         // Without points, the first message still lets the server check the scene.
-        if (first) stream_->Write(request);
+        if (number == 0) stream_->Write(request);
         stream_->WritesDone();
         return;
       }
-      set_points(xyz, *request.mutable_points());
+      if (!memory_) set_points(xyz, *request.mutable_points());
       {
         std::unique_lock lock(mutex_);
-        changed_.wait(lock, [&] { return in_flight_.size() < kWindow || reader_done_; });
+        changed_.wait(lock, [&] { return in_flight_.size() < (memory_ ? kSlots : kWindow) || reader_done_; });
         if (reader_done_) return;
-        in_flight_.push_back(std::move(xyz));
+        in_flight_.push_back(std::move(chunk));
       }
+      if (memory_) share(number, xyz, gradient ? 4 : 1, request);
       if (!stream_->Write(request)) return;  // the stream is broken: Finish() tells why
       request.clear_scene();
       request.clear_quantity();
     }
   }
 
+  // Puts a chunk into its slot, which the answer to an earlier one has made free.
+  void share(std::size_t number, std::span<const float> xyz, std::uint64_t columns,
+             v1::EvaluateStreamRequest& request) {
+    const std::size_t offset = number % kSlots * kSlotBytes;
+    std::memcpy(memory_->data() + offset, xyz.data(), xyz.size_bytes());
+    const auto name = [&](std::size_t at, std::uint64_t width, v1::SharedTensor& tensor) {
+      tensor.set_region(memory_->region());
+      tensor.set_offset(at);
+      tensor.set_dtype(v1::Tensor::FLOAT32);
+      tensor.clear_shape();
+      tensor.add_shape(xyz.size() / 3);
+      tensor.add_shape(width);
+    };
+    name(offset, 3, *request.mutable_shared_points());
+    name(offset + kSlotPoints, columns, *request.mutable_shared_result());
+  }
+
   absl::Status read_all(std::uint64_t columns, const Client::ResultSink& sink) {
     v1::EvaluateResponse response;
-    std::vector<float> results;
-    while (stream_->Read(&response)) {
-      std::vector<float> xyz;
+    std::vector<float> received;
+    for (std::size_t number = 0; stream_->Read(&response); ++number) {
+      std::span<const float> xyz;
       {
         const std::lock_guard lock(mutex_);
         if (in_flight_.empty()) return absl::InternalError("the server answered more chunks than were sent");
-        xyz = std::move(in_flight_.front());
-        in_flight_.pop_front();
+        xyz = in_flight_.front().xyz;  // the front stays where it is
       }
-      changed_.notify_all();
-      results.clear();
-      if (auto status = append_floats(response.result(), columns, results); !status.ok()) return status;
+      std::span<const float> results;
+      if (memory_) {
+        const std::byte* const at = memory_->data() + number % kSlots * kSlotBytes + kSlotPoints;
+        results = {reinterpret_cast<const float*>(at), xyz.size() / 3 * columns};
+      } else {
+        received.clear();
+        if (auto status = append_floats(response.result(), columns, received); !status.ok()) return status;
+        results = received;
+      }
       if (results.size() / columns != xyz.size() / 3) {
         return absl::InternalError(absl::StrCat("the server answered ", results.size() / columns, " of ",
                                                 xyz.size() / 3, " points of a chunk"));
       }
       if (auto status = sink(xyz, results); !status.ok()) return status;
+      {
+        const std::lock_guard lock(mutex_);
+        in_flight_.pop_front();
+      }
+      changed_.notify_all();
     }
     return absl::OkStatus();
   }
 
   grpc::ClientContext& context_;
+  const SharedMemory* const memory_;
   std::unique_ptr<Stream> stream_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::vector<float>> in_flight_;
+  std::deque<Chunk> in_flight_;
   bool reader_done_ = false;
   absl::Status source_status_;  // the writer's until it is joined
 };
 
 }  // namespace
 
+absl::Status Client::Impl::stream(const v1::SceneRef& scene, bool gradient, const ChunkSource& source,
+                                  const ResultSink& sink) {
+  grpc::ClientContext context;
+  set_timeout(context, options.stream_timeout);
+  std::unique_ptr<SharedMemory> memory = take_shared_memory(kSlots * kSlotBytes);
+  const absl::Status status =
+      StreamedEvaluation(*fields, context, memory.get()).run(scene, gradient, source, sink, address);
+  // Of a stream that was broken off the server may still write results.
+  if (memory && status.ok()) shared_memory.give(std::move(memory));
+  return status;
+}
+
 absl::Status Client::evaluate(const v1::SceneRef& scene, bool gradient, const PointSource& source,
                               const ResultSink& sink) {
-  grpc::ClientContext context;
-  Impl::set_timeout(context, impl_->options.stream_timeout);
-  return StreamedEvaluation(*impl_->fields, context).run(scene, gradient, source, sink, impl_->address);
+  return impl_->stream(
+      scene, gradient,
+      [&](Chunk& chunk) {
+        const absl::Status status = source(chunk.kept);
+        chunk.xyz = chunk.kept;
+        return status;
+      },
+      sink);
 }
 
 absl::StatusOr<std::vector<float>> Client::evaluate(const v1::SceneRef& scene, std::span<const float> xyz,
@@ -137,12 +191,11 @@ absl::StatusOr<std::vector<float>> Client::evaluate(const v1::SceneRef& scene, s
     std::size_t sent = 0;
     all.clear();
     all.reserve(xyz.size() / 3 * (gradient ? 4 : 1));
-    return evaluate(
+    return impl_->stream(
         scene, gradient,
-        [&](std::vector<float>& chunk) {
-          const auto next = xyz.subspan(sent, std::min(3 * kChunkPoints, xyz.size() - sent));
-          chunk.assign(next.begin(), next.end());
-          sent += next.size();
+        [&](Chunk& chunk) {
+          chunk.xyz = xyz.subspan(sent, std::min(3 * kChunkPoints, xyz.size() - sent));
+          sent += chunk.xyz.size();
           return absl::OkStatus();
         },
         [&](std::span<const float>, std::span<const float> results) {

@@ -3,10 +3,13 @@
 #include <grpcpp/channel.h>
 #include <grpcpp/client_context.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "errors.h"
 #include "isofield/client.h"
@@ -16,8 +19,17 @@
 #include "isofield/v1/operator_service.grpc.pb.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
 #include "isofield/v1/surface_service.grpc.pb.h"
+#include "shared_memory.h"
 
 namespace isofield {
+
+// [n, 3] coordinates, the caller's own or `kept`.
+struct Chunk {
+  std::vector<float> kept;
+  std::span<const float> xyz;
+};
+// The next one; empty: there are no more.
+using ChunkSource = std::function<absl::Status(Chunk& chunk)>;
 
 struct Client::Impl {
   std::string address;
@@ -28,6 +40,12 @@ struct Client::Impl {
   std::unique_ptr<v1::MeshService::Stub> meshes;
   std::unique_ptr<v1::SurfaceService::Stub> surfaces;
   std::unique_ptr<v1::InfoService::Stub> infos;
+  SharedMemoryPool shared_memory;
+
+  // Any number of points, in chunks.
+  absl::Status stream(const v1::SceneRef& scene, bool gradient, const ChunkSource& source, const ResultSink& sink);
+  // For one evaluation; null: it takes the wire.
+  std::unique_ptr<SharedMemory> take_shared_memory(std::size_t bytes);
 
   static void set_timeout(grpc::ClientContext& context, std::optional<std::chrono::milliseconds> timeout) {
     if (timeout) context.set_deadline(std::chrono::system_clock::now() + *timeout);

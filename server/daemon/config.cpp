@@ -44,8 +44,10 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   app.add_option("--drain-seconds", c.drain_seconds, "How long running requests may take to finish on SIGTERM")
       ->envname("ISOFIELD_DRAIN_SECONDS")
       ->check(CLI::Range(0, 3600));
-  app.add_option("--max-threads", c.max_threads,
-                 "Threads, and so requests and open streams, at once; Evaluate has an eighth as many of its own")
+  app.add_option(
+         "--max-threads", c.max_threads,
+         "Threads, and so requests at once; Evaluate and EvaluateStream have an eighth as many of their own each, "
+         "and three quarters as many streams may be open")
       ->envname("ISOFIELD_MAX_THREADS")
       ->check(CLI::Range(4, 65536));
   app.add_option("--max-nodes", c.limits.scene.max_nodes, "Nodes of a scene")->envname("ISOFIELD_MAX_NODES");
@@ -75,6 +77,14 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
                  "Microseconds that a small Evaluate call may be held back for others to join it")
       ->envname("ISOFIELD_QUEUE_DELAY_US")
       ->check(CLI::Range(0, 1'000'000));
+  app.add_flag("--shared-memory", c.shared_memory,
+               "Share memory with clients of the same user; with --listen unix:PATH, by a second socket PATH.shm")
+      ->envname("ISOFIELD_SHARED_MEMORY");
+  app.add_option("--max-shared-regions", c.limits.shared.max_regions, "Regions of shared memory")
+      ->envname("ISOFIELD_MAX_SHARED_REGIONS")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{4096}));
+  app.add_option("--max-shared-bytes", c.limits.shared.max_bytes, "Bytes of all regions of shared memory")
+      ->envname("ISOFIELD_MAX_SHARED_BYTES");
   try {
     app.parse(arguments_of(app, argc, argv));
   } catch (const CLI::ParseError& error) {

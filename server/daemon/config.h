@@ -16,6 +16,7 @@ struct Config {
   std::string log_level = "info";
   int drain_seconds = 10;
   int max_threads = 256;
+  bool shared_memory = false;
   rpc::Limits limits;
 };
 

@@ -20,16 +20,19 @@
 
 #include "catalog/catalog.h"
 #include "catalog/operator_catalog.h"
+#include "daemon/region_socket.h"
 #include "daemon/socket.h"
 #include "engine/engine.h"
 #include "engine/status_macros.h"
 #include "rpc/evaluate_calls.h"
+#include "rpc/evaluate_streams.h"
 #include "rpc/field_service.h"
 #include "rpc/info_service.h"
 #include "rpc/mesh_service.h"
 #include "rpc/operator_service.h"
 #include "rpc/scene_service.h"
 #include "rpc/scene_source.h"
+#include "rpc/shared_regions.h"
 #include "rpc/surface_service.h"
 
 namespace isofield::daemon {
@@ -55,6 +58,12 @@ absl::Status prepare_data_dir(const std::string& data_dir) {
   return absl::OkStatus();
 }
 
+// Absolute, for clients may run in other folders; empty: no memory is shared.
+std::string region_socket_path(const Config& config) {
+  const std::string path = config.shared_memory ? unix_path(config.listen) : "";
+  return path.empty() ? "" : std::filesystem::absolute(path).string() + ".shm";
+}
+
 sigset_t stop_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -67,11 +76,22 @@ sigset_t stop_signals() {
 struct Running {
   std::unique_ptr<grpc::Server> server;
   std::unique_ptr<rpc::EvaluateCalls> evaluate_calls;
+  std::unique_ptr<rpc::EvaluateStreams> evaluate_streams;
+  std::unique_ptr<RegionSocket> region_socket;  // null: no memory is shared
 };
 
 absl::StatusOr<Running> start_server(const Config& config, const std::vector<grpc::Service*>& services,
-                                     rpc::FieldService& field_service) {
+                                     rpc::FieldService& field_service, rpc::SharedRegions& regions) {
   ISOFIELD_RETURN_IF_ERROR(check_listen_address(config.listen));
+  if (config.shared_memory && region_socket_path(config).empty()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("--shared-memory: expected --listen unix:PATH, not --listen ", config.listen));
+  }
+  std::unique_ptr<RegionSocket> region_socket;
+  if (config.shared_memory) {
+    ISOFIELD_ASSIGN_OR_RETURN(
+        region_socket, RegionSocket::listen(region_socket_path(config), regions, config.limits.shared.max_regions));
+  }
   // Held until the process ends: the last one to let go of gRPC waits for its pollers, which sleep for 10 s each where
   // a client was slow to read.
   grpc_init();
@@ -89,6 +109,7 @@ absl::StatusOr<Running> start_server(const Config& config, const std::vector<grp
   builder.SetResourceQuota(quota);
   for (grpc::Service* service : services) builder.RegisterService(service);
   auto evaluate_calls = std::make_unique<rpc::EvaluateCalls>(field_service, builder.AddCompletionQueue());
+  auto evaluate_streams = std::make_unique<rpc::EvaluateStreams>(field_service, builder.AddCompletionQueue());
   std::unique_ptr<grpc::Server> server = builder.BuildAndStart();
   const bool is_unix = absl::StartsWith(config.listen, "unix:");
   if (!server || (!is_unix && port <= 0)) {
@@ -97,12 +118,13 @@ absl::StatusOr<Running> start_server(const Config& config, const std::vector<grp
                                                "unix:PATH)"));
   }
   evaluate_calls->start(std::max(config.max_threads / 8, 2));
+  evaluate_streams->start(std::max(config.max_threads / 8, 2));
   if (is_unix) {
     spdlog::info("listening on {}", config.listen);
   } else {
     spdlog::info("listening on {}:{}", config.listen.substr(0, config.listen.rfind(':')), port);
   }
-  return Running{std::move(server), std::move(evaluate_calls)};
+  return Running{std::move(server), std::move(evaluate_calls), std::move(evaluate_streams), std::move(region_socket)};
 }
 
 }  // namespace
@@ -130,15 +152,15 @@ absl::Status run(const Config& config, const std::string& version) {
   rpc::SceneEditor editor(catalog, *engine);
   rpc::SceneService scene_service(catalog, operators, *engine, editor);
   rpc::OperatorService operator_service(operators, scenes, *engine, config.limits);
-  rpc::FieldService field_service(scenes, *engine, config.limits);
+  rpc::SharedRegions shared_regions(config.limits.shared);
+  rpc::FieldService field_service(scenes, *engine, config.limits, config.shared_memory ? &shared_regions : nullptr);
   rpc::MeshService mesh_service(scenes, editor, *engine, config.limits);
   rpc::SurfaceService surface_service(scenes, *engine, config.limits);
-  rpc::InfoService info_service(operators, *engine, config.limits, version);
+  rpc::InfoService info_service(operators, *engine, config.limits, version, region_socket_path(config));
   ISOFIELD_ASSIGN_OR_RETURN(const Running running, start_server(config,
                                                                 {&scene_service, &operator_service, &field_service,
                                                                  &mesh_service, &surface_service, &info_service},
-                                                                field_service));
-
+                                                                field_service, shared_regions));
   int signal = 0;
   sigwait(&signals, &signal);
   spdlog::info("{}: finishing running requests, for {} s at most", strsignal(signal), config.drain_seconds);
@@ -151,6 +173,7 @@ absl::Status run(const Config& config, const std::string& version) {
   running.server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(config.drain_seconds));
   running.server->Wait();
   running.evaluate_calls->stop();
+  running.evaluate_streams->stop();
   spdlog::info("stopped");
   return absl::OkStatus();
 }

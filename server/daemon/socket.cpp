@@ -31,10 +31,15 @@ absl::Status check_host_and_port(const std::string& address) {
 
 }  // namespace
 
+std::string unix_path(const std::string& address) {
+  if (!absl::StartsWith(address, "unix:")) return "";
+  std::string path(absl::StripPrefix(address, "unix:"));
+  return absl::StartsWith(path, "//") ? path.substr(2) : path;
+}
+
 absl::Status check_listen_address(const std::string& address) {
   if (!absl::StartsWith(address, "unix:")) return check_host_and_port(address);
-  std::string path(absl::StripPrefix(address, "unix:"));
-  if (absl::StartsWith(path, "//")) path = path.substr(2);
+  const std::string path = unix_path(address);
   sockaddr_un name{};
   if (path.empty() || path.size() >= sizeof(name.sun_path)) {
     return absl::InvalidArgumentError(

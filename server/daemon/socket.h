@@ -11,4 +11,7 @@ namespace isofield::daemon {
 // for a port beyond 65535. ALREADY_EXISTS: another process serves on the unix socket; gRPC would take its path over.
 absl::Status check_listen_address(const std::string& address);
 
+// The path of unix:PATH; empty: another address.
+std::string unix_path(const std::string& address);
+
 }  // namespace isofield::daemon

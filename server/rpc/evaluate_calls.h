@@ -1,14 +1,9 @@
 // FieldService.Evaluate as it is served: by few threads for any number of calls that wait.
 #pragma once
 
-#include <grpcpp/grpcpp.h>
-
-#include <condition_variable>
 #include <memory>
-#include <mutex>
-#include <thread>
-#include <vector>
 
+#include "rpc/call_threads.h"
 #include "rpc/field_service.h"
 
 namespace isofield::rpc {
@@ -18,31 +13,18 @@ namespace isofield::rpc {
 // resident, compiles a kernel, or evaluates a large batch is taken for as long.
 class EvaluateCalls {
  public:
-  // `queue`: the server's own for this.
   EvaluateCalls(FieldService& service, std::unique_ptr<grpc::ServerCompletionQueue> queue)
-      : service_(service), queue_(std::move(queue)) {}
-  ~EvaluateCalls() { stop(); }
+      : service_(service), threads_(std::move(queue)) {}
 
-  // Once the server is started.
+  // As of CallThreads.
   void start(int threads);
-  // Once the server is shut down; waits for the calls.
-  void stop();
+  void stop() { threads_.stop(); }
 
  private:
   class Call;
-  // What gRPC gives back when something of a call is done.
-  struct Event {
-    void (Call::*happened)(bool is_ok);
-    Call* call;
-  };
-  void serve();
 
   FieldService& service_;
-  std::unique_ptr<grpc::ServerCompletionQueue> queue_;
-  std::vector<std::thread> threads_;
-  std::mutex mutex_;
-  std::size_t calls_ = 0;  // that there are, the one wished for among them
-  std::condition_variable none_left_;
+  CallThreads threads_;
 };
 
 }  // namespace isofield::rpc

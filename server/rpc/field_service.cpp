@@ -7,7 +7,6 @@
 #include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
 #include "rpc/geometry_arguments.h"
-#include "rpc/open_stream.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"
 
@@ -16,47 +15,6 @@ namespace {
 
 // Points of one message of a grid's answer: 1 to 4 MiB.
 constexpr std::uint64_t kGridSlab = 1u << 18;
-
-absl::StatusOr<engine::Quantity> read_quantity(v1::Quantity quantity) {
-  switch (quantity) {
-    case v1::QUANTITY_UNSPECIFIED:
-    case v1::VALUE:
-      return engine::Quantity::kValue;
-    case v1::VALUE_AND_GRADIENT:
-      return engine::Quantity::kValueAndGradient;
-    default:
-      return absl::InvalidArgumentError(
-          absl::StrCat("quantity = ", static_cast<int>(quantity), ": expected VALUE or VALUE_AND_GRADIENT"));
-  }
-}
-
-absl::StatusOr<int> read_priority(v1::Priority priority) {
-  switch (priority) {
-    case v1::PRIORITY_LOW:
-      return -1;
-    case v1::PRIORITY_UNSPECIFIED:
-    case v1::PRIORITY_NORMAL:
-      return 0;
-    case v1::PRIORITY_HIGH:
-      return 1;
-    default:
-      return absl::InvalidArgumentError(absl::StrCat("priority = ", static_cast<int>(priority),
-                                                     ": expected PRIORITY_LOW, PRIORITY_NORMAL or PRIORITY_HIGH"));
-  }
-}
-
-// All but the points of a call, or of a stream of them.
-absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context, const SceneSource& scenes,
-                                              const v1::SceneRef& scene, v1::Quantity quantity, v1::Priority priority) {
-  engine::PointBatch batch;
-  ISOFIELD_ASSIGN_OR_RETURN(batch.quantity, read_quantity(quantity));
-  ISOFIELD_ASSIGN_OR_RETURN(batch.priority, read_priority(priority));
-  ISOFIELD_ASSIGN_OR_RETURN(LeasedScene leased, scenes.lease(scene));
-  batch.scene = std::move(leased.scene);
-  batch.deadline = context.deadline();
-  batch.cancelled = [&context] { return context.IsCancelled(); };
-  return batch;
-}
 
 absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& request, const Limits& limits) {
   blobtree::Lattice lattice;
@@ -98,30 +56,21 @@ absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& re
   return lattice;
 }
 
-void set_points(engine::PointBatch& batch, const PointArray& points, v1::EvaluateResponse& response) {
-  batch.xyz = points.xyz();
-  batch.out = make_float_tensor({points.size(), engine::components(batch.quantity)}, *response.mutable_result());
-}
-
 }  // namespace
-
-absl::Status FieldService::evaluate_now(engine::PointBatch batch, const v1::Tensor& points,
-                                        v1::EvaluateResponse& response) {
-  ISOFIELD_ASSIGN_OR_RETURN(const PointArray array, PointArray::read(points, limits_.max_points_per_message));
-  set_points(batch, array, response);
-  return engine_.evaluate(batch);
-}
 
 void FieldService::evaluate(grpc::ServerContext& context, const v1::EvaluateRequest& request,
                             v1::EvaluateResponse& response, std::function<void(const grpc::Status&)> done) {
   absl::StatusOr<engine::PointBatch> batch =
       read_batch(context, scenes_, request.scene(), request.quantity(), request.priority());
   if (!batch.ok()) return done(to_grpc(batch.status()));
-  absl::StatusOr<PointArray> read = PointArray::read(request.points(), limits_.max_points_per_message);
+  absl::StatusOr<MessagePoints> read = read_points(PointFields(request), batch->quantity, limits_, regions_);
   if (!read.ok()) return done(to_grpc(read.status()));
-  const auto array = std::make_shared<const PointArray>(*std::move(read));
-  set_points(*batch, *array, response);
-  engine_.submit(*std::move(batch), [&context, array, done = std::move(done)](const absl::Status& status) {
+  const auto message = std::make_shared<const MessagePoints>(*std::move(read));
+  batch->xyz = message->points.xyz();
+  batch->out = message->result ? message->shared_numbers()
+                               : make_float_tensor({message->points.size(), components(batch->quantity)},
+                                                   *response.mutable_result());
+  engine_.submit(*std::move(batch), [&context, message, done = std::move(done)](const absl::Status& status) {
     if (const auto ms = engine::retry_after_ms(status)) {
       context.AddTrailingMetadata("grpc-retry-pushback-ms", absl::StrCat(*ms));
     }
@@ -129,41 +78,14 @@ void FieldService::evaluate(grpc::ServerContext& context, const v1::EvaluateRequ
   });
 }
 
-grpc::Status FieldService::EvaluateStream(
-    grpc::ServerContext* context, grpc::ServerReaderWriter<v1::EvaluateResponse, v1::EvaluateStreamRequest>* stream) {
-  const OpenStream open(open_streams_);
-  if (open.count() > limits_.max_streams) {
-    return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-            absl::StrCat(limits_.max_streams,
-                         " streams are open, as many as are admitted (three quarters of "
-                         "--max-threads): close one, or try again")};
-  }
-  v1::EvaluateStreamRequest request;
-  if (!stream->Read(&request)) {
-    return {grpc::StatusCode::INVALID_ARGUMENT, "the stream is empty: expected a first message that states the scene"};
-  }
-  absl::StatusOr<engine::PointBatch> batch =
-      read_batch(*context, scenes_, request.scene(), request.quantity(), request.priority());
-  if (!batch.ok()) return to_grpc(batch.status());
-  batch->is_admitted = true;  // one message of each open stream at a time
-  std::uint64_t before = 0;
-  bool is_first = true;
-  do {
-    if (!is_first && (request.has_scene() || request.quantity() != v1::QUANTITY_UNSPECIFIED ||
-                      request.priority() != v1::PRIORITY_UNSPECIFIED)) {
-      return {grpc::StatusCode::INVALID_ARGUMENT,
-              "scene, quantity and priority are stated in a stream's first message alone"};
-    }
-    is_first = false;
-    if (!request.has_points()) continue;
-    v1::EvaluateResponse response;
-    if (const absl::Status s = evaluate_now(*batch, request.points(), response); !s.ok()) {
-      return to_grpc(absl::Status(s.code(), absl::StrCat("after ", before, " points: ", s.message())));
-    }
-    before += response.result().shape(0);
-    if (!stream->Write(response)) return {grpc::StatusCode::CANCELLED, "the client is gone"};
-  } while (stream->Read(&request));
-  return grpc::Status::OK;
+absl::StatusOr<engine::PointBatch> FieldService::begin(const grpc::ServerContext& context,
+                                                       const v1::EvaluateStreamRequest& first) const {
+  return read_batch(context, scenes_, first.scene(), first.quantity(), first.priority());
+}
+
+absl::StatusOr<MessagePoints> FieldService::points_of(const v1::EvaluateStreamRequest& request,
+                                                      engine::Quantity quantity) const {
+  return read_points(PointFields(request), quantity, limits_, regions_);
 }
 
 grpc::Status FieldService::EvaluateGrid(grpc::ServerContext* context, const v1::EvaluateGridRequest* request,

@@ -26,6 +26,11 @@ grpc::Status InfoService::GetInfo(grpc::ServerContext*, const v1::GetInfoRequest
   limits.set_max_queued_requests(limits_.queue.max_requests);
   limits.set_max_queued_points(limits_.queue.max_points);
   limits.set_max_operators(limits_.max_operators);
+  if (!region_socket_.empty()) {
+    limits.set_max_shared_regions(limits_.shared.max_regions);
+    limits.set_max_shared_bytes(limits_.shared.max_bytes);
+  }
+  response->set_shared_memory_socket(region_socket_);
   const engine::Engine::Residency residency = engine_.residency();
   response->set_resident_scenes(residency.scenes);
   response->set_scene_bytes(residency.bytes);

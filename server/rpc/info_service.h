@@ -13,9 +13,14 @@ namespace isofield::rpc {
 
 class InfoService final : public v1::InfoService::Service {
  public:
+  // `region_socket`: where memory is shared; empty: nowhere.
   InfoService(const catalog::OperatorCatalog& operators, engine::Engine& engine, const Limits& limits,
-              std::string version)
-      : operators_(operators), engine_(engine), limits_(limits), version_(std::move(version)) {}
+              std::string version, std::string region_socket)
+      : operators_(operators),
+        engine_(engine),
+        limits_(limits),
+        version_(std::move(version)),
+        region_socket_(std::move(region_socket)) {}
 
   grpc::Status GetInfo(grpc::ServerContext*, const v1::GetInfoRequest*, v1::GetInfoResponse*) override;
 
@@ -23,7 +28,7 @@ class InfoService final : public v1::InfoService::Service {
   const catalog::OperatorCatalog& operators_;
   engine::Engine& engine_;
   const Limits& limits_;
-  const std::string version_;
+  const std::string version_, region_socket_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -5,6 +5,7 @@
 
 #include "blobtree/scene.h"
 #include "engine/evaluation_queue.h"
+#include "rpc/shared_regions.h"
 
 namespace isofield::rpc {
 
@@ -12,7 +13,7 @@ struct Limits {
   blobtree::SceneLimits scene;
   std::uint64_t max_scenes = 1'000;
   std::uint64_t max_operators = 10'000;  // custom ones
-  // Open EvaluateStream calls: each holds a thread, and the other threads are for the other calls.
+  // Open EvaluateStream calls: each holds the memory of some messages.
   int max_streams = 192;
   int max_tracked_meshes = 32;  // open TrackMesh calls, which hold threads too
   std::uint64_t max_message_bytes = 64u << 20;
@@ -20,6 +21,7 @@ struct Limits {
   std::uint64_t max_grid_points = 1ull << 32;
   std::uint64_t max_mesh_cells = 1u << 25;
   engine::QueueLimits queue;
+  SharedLimits shared;
 };
 
 }  // namespace isofield::rpc

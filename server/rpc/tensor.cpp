@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "engine/status_macros.h"
 
@@ -40,23 +41,40 @@ void fill(std::span<const T> numbers, std::uint64_t columns, v1::Tensor::DType d
 
 }  // namespace
 
-absl::StatusOr<RowArray> RowArray::read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
-                                        const Words& words) {
-  if (tensor.dtype() != v1::Tensor::FLOAT32 && tensor.dtype() != v1::Tensor::FLOAT64) {
-    const std::string& name = v1::Tensor::DType_Name(tensor.dtype());  // empty: a number that has none
-    return absl::InvalidArgumentError(absl::StrCat(words.tensor,
-                                                   ".dtype = ", name.empty() ? absl::StrCat(tensor.dtype()) : name,
+absl::Status RowArray::check(v1::Tensor::DType dtype, const Shape& shape, std::uint64_t columns, std::uint64_t max_rows,
+                             const Words& words) {
+  if (dtype != v1::Tensor::FLOAT32 && dtype != v1::Tensor::FLOAT64) {
+    const std::string& name = v1::Tensor::DType_Name(dtype);  // empty: a number that has none
+    return absl::InvalidArgumentError(absl::StrCat(words.tensor, ".dtype = ", name.empty() ? absl::StrCat(dtype) : name,
                                                    ": expected FLOAT32 or FLOAT64"));
   }
-  if (tensor.shape_size() != 2 || tensor.shape(1) != columns) {
-    return absl::InvalidArgumentError(absl::StrCat(words.tensor, ".shape = [", absl::StrJoin(tensor.shape(), ", "),
-                                                   "]: expected [n, ", columns, "]"));
+  if (shape.size() != 2 || shape[1] != columns) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(words.tensor, ".shape = [", absl::StrJoin(shape, ", "), "]: expected [n, ", columns, "]"));
   }
-  const std::uint64_t count = tensor.shape(0);
-  if (count > max_rows) {
-    return absl::ResourceExhaustedError(absl::StrCat(words.tensor, ".shape = [", count, ", ", columns, "]: at most ",
+  if (shape[0] > max_rows) {
+    return absl::ResourceExhaustedError(absl::StrCat(words.tensor, ".shape = [", shape[0], ", ", columns, "]: at most ",
                                                      max_rows, " ", words.rows, " a message; ", words.too_many));
   }
+  return absl::OkStatus();
+}
+
+template <class T>
+void RowArray::convert(const std::byte* data, std::size_t count) {
+  converted_.resize(count);
+  if constexpr (std::is_same_v<T, float>) {
+    if (count > 0) std::memcpy(converted_.data(), data, count * sizeof(float));
+  } else {
+    const auto* numbers = reinterpret_cast<const T*>(data);
+    for (std::size_t i = 0; i < count; ++i) converted_[i] = static_cast<float>(numbers[i]);
+  }
+  numbers_ = converted_;
+}
+
+absl::StatusOr<RowArray> RowArray::read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
+                                        const Words& words) {
+  ISOFIELD_RETURN_IF_ERROR(check(tensor.dtype(), tensor.shape(), columns, max_rows, words));
+  const std::uint64_t count = tensor.shape(0);
   const std::uint64_t size = tensor.dtype() == v1::Tensor::FLOAT32 ? 4 : 8;
   if (tensor.data().size() != columns * size * count) {
     return absl::InvalidArgumentError(absl::StrCat(words.tensor, ".data holds ", tensor.data().size(),
@@ -67,24 +85,46 @@ absl::StatusOr<RowArray> RowArray::read(const v1::Tensor& tensor, std::uint64_t 
   if (size == 4) {
     array.numbers_ = {reinterpret_cast<const float*>(tensor.data().data()), columns * count};
   } else {
-    array.converted_.resize(columns * count);
-    const auto* doubles = reinterpret_cast<const double*>(tensor.data().data());
-    for (std::size_t i = 0; i < columns * count; ++i) array.converted_[i] = static_cast<float>(doubles[i]);
-    array.numbers_ = array.converted_;
+    array.convert<double>(reinterpret_cast<const std::byte*>(tensor.data().data()), columns * count);
   }
   return array;
 }
 
-absl::StatusOr<PointArray> PointArray::read(const v1::Tensor& tensor, std::uint64_t max_points,
-                                            const RowArray::Words& words) {
+absl::StatusOr<RowArray> RowArray::read(const v1::SharedTensor& tensor, const SharedRegions& regions,
+                                        std::uint64_t columns, std::uint64_t max_rows, const Words& words) {
+  ISOFIELD_RETURN_IF_ERROR(check(tensor.dtype(), tensor.shape(), columns, max_rows, words));
+  const bool is_float = tensor.dtype() == v1::Tensor::FLOAT32;
+  ISOFIELD_ASSIGN_OR_RETURN(const SharedBytes shared,
+                            regions.find(tensor, columns * tensor.shape(0), is_float ? 4 : 8, words.tensor));
+  RowArray array;
+  if (is_float) {
+    array.convert<float>(shared.bytes.data(), columns * tensor.shape(0));
+  } else {
+    array.convert<double>(shared.bytes.data(), columns * tensor.shape(0));
+  }
+  return array;
+}
+
+absl::StatusOr<PointArray> PointArray::of(absl::StatusOr<RowArray> rows, const RowArray::Words& words) {
+  if (!rows.ok()) return rows.status();
   PointArray array;
-  ISOFIELD_ASSIGN_OR_RETURN(array.rows_, RowArray::read(tensor, 3, max_points, words));
+  array.rows_ = *std::move(rows);
   const std::size_t bad = first_not_finite(array.xyz());
   if (bad < array.xyz().size()) {
     return absl::InvalidArgumentError(absl::StrCat(words.tensor, "[", bad / 3, "].", std::string(1, "xyz"[bad % 3]),
                                                    " = ", array.xyz()[bad], ": expected a finite float32"));
   }
   return array;
+}
+
+absl::StatusOr<PointArray> PointArray::read(const v1::Tensor& tensor, std::uint64_t max_points,
+                                            const RowArray::Words& words) {
+  return of(RowArray::read(tensor, 3, max_points, words), words);
+}
+
+absl::StatusOr<PointArray> PointArray::read(const v1::SharedTensor& tensor, const SharedRegions& regions,
+                                            std::uint64_t max_points, const RowArray::Words& words) {
+  return of(RowArray::read(tensor, regions, 3, max_points, words), words);
 }
 
 std::span<float> make_float_tensor(std::initializer_list<std::uint64_t> shape, v1::Tensor& tensor) {

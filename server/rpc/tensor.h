@@ -3,12 +3,14 @@
 
 #include <absl/status/statusor.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "isofield/v1/scene.pb.h"
+#include "rpc/shared_regions.h"
 
 namespace isofield::rpc {
 
@@ -25,9 +27,20 @@ class RowArray {
   static absl::StatusOr<RowArray> read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
                                        const Words& words);
 
+  // The same in shared memory, of which it makes a copy; and the errors of SharedRegions::find.
+  static absl::StatusOr<RowArray> read(const v1::SharedTensor& tensor, const SharedRegions& regions,
+                                       std::uint64_t columns, std::uint64_t max_rows, const Words& words);
+
   std::span<const float> numbers() const { return numbers_; }
 
  private:
+  using Shape = google::protobuf::RepeatedField<std::uint64_t>;
+  // All but the bytes.
+  static absl::Status check(v1::Tensor::DType dtype, const Shape& shape, std::uint64_t columns, std::uint64_t max_rows,
+                            const Words& words);
+  template <class T>
+  void convert(const std::byte* data, std::size_t count);
+
   std::span<const float> numbers_;
   std::vector<float> converted_;
 };
@@ -40,11 +53,18 @@ class PointArray {
   static absl::StatusOr<PointArray> read(const v1::Tensor& tensor, std::uint64_t max_points,
                                          const RowArray::Words& words = {"points", "points",
                                                                          "send chunks by EvaluateStream"});
+  // The same in shared memory: a copy, so that what was found finite stays so.
+  static absl::StatusOr<PointArray> read(const v1::SharedTensor& tensor, const SharedRegions& regions,
+                                         std::uint64_t max_points,
+                                         const RowArray::Words& words = {"shared_points", "points",
+                                                                         "send chunks by EvaluateStream"});
 
   std::span<const float> xyz() const { return rows_.numbers(); }
   std::size_t size() const { return xyz().size() / 3; }
 
  private:
+  static absl::StatusOr<PointArray> of(absl::StatusOr<RowArray> rows, const RowArray::Words& words);
+
   RowArray rows_;
 };
 

@@ -6,8 +6,9 @@
 
 namespace isofield {
 
-absl::StatusOr<Client> Context::connect() const {
+absl::StatusOr<Client> Context::connect(bool shared_memory) const {
   ClientOptions options;
+  options.shared_memory = shared_memory;
   if (timeout > 0) {
     options.unary_timeout = std::chrono::milliseconds(static_cast<long long>(timeout * 1000) + 1);
     options.stream_timeout = options.unary_timeout;

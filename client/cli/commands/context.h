@@ -25,7 +25,7 @@ struct Context {
   double timeout = 0;
   absl::Status outcome;
 
-  absl::StatusOr<Client> connect() const;
+  absl::StatusOr<Client> connect(bool shared_memory = false) const;
 };
 
 // What an option above 0 is checked with; CLI11's own check passes NaN, and its messages print the greatest double.

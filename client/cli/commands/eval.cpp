@@ -19,7 +19,7 @@ namespace {
 
 struct EvalArguments {
   std::string scene, points, output = "-";
-  bool gradient = false;
+  bool gradient = false, shared_memory = false;
   ImportFlags flags;
 };
 
@@ -32,7 +32,7 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
   if (!scene.ok()) return scene.status();
   auto reader = open_points(arguments.points);
   if (!reader.ok()) return file_error(reader.status());
-  auto client = context.connect();
+  auto client = context.connect(arguments.shared_memory);
   if (!client.ok()) return client.status();
   auto file = OutputFile::create(arguments.output);
   if (!file.ok()) return file_error(file.status());
@@ -77,6 +77,8 @@ void add_eval_command(CLI::App& app, Context& context) {
           "Text with x,y,z on each line (.csv), a NumPy array (n, 3) (.npy), or - for text from the standard input")
       ->required();
   command->add_flag("--gradient", arguments->gradient, "The gradient too");
+  command->add_flag("--shared-memory", arguments->shared_memory,
+                    "Points and results through memory shared with the server, where it offers that");
   command
       ->add_option("-o,--output", arguments->output,
                    "Text x,y,z,value[,gx,gy,gz] (.csv), or a NumPy array (n, 1 or 4) (.npy); - is the standard output")

@@ -31,6 +31,10 @@ struct ClientOptions {
   int attempts = 3;
   // Before the second attempt; doubled before each further one.
   std::chrono::milliseconds backoff = std::chrono::milliseconds(100);
+  // Points and results of streamed evaluations go through memory shared with the server instead of the wire, where the
+  // server offers that: isofieldd --shared-memory, on a unix socket, run by the same user. Elsewhere it changes
+  // nothing.
+  bool shared_memory = false;
 };
 
 // A triangle mesh in model units; triangles are counter-clockwise seen from outside.

@@ -1,0 +1,30 @@
+#include "rpc/call_threads.h"
+
+namespace isofield::rpc {
+
+void CallThreads::start(int threads) {
+  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { serve(); });
+}
+
+void CallThreads::serve() {
+  void* tag = nullptr;
+  bool is_ok = false;
+  while (queue_->Next(&tag, &is_ok)) {
+    const Event event = *static_cast<const Event*>(tag);  // its call may go with it
+    event(is_ok);
+  }
+}
+
+void CallThreads::stop() {
+  if (threads_.empty()) return;
+  {
+    // For the server, a cancelled call has ended; it is answered into the queue all the same.
+    std::unique_lock lock(mutex_);
+    none_left_.wait(lock, [&] { return calls_ == 0; });
+  }
+  queue_->Shutdown();
+  for (std::thread& t : threads_) t.join();
+  threads_.clear();
+}
+
+}  // namespace isofield::rpc

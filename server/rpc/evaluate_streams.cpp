@@ -1,0 +1,218 @@
+#include "rpc/evaluate_streams.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "rpc/evaluate_arguments.h"
+#include "rpc/result_message.h"
+#include "rpc/status.h"
+
+namespace isofield::rpc {
+namespace {
+
+// Of a stream at a time: one decoded, one on the device, one written.
+constexpr std::size_t kAtHand = 3;
+
+}  // namespace
+
+// From the wish for a stream to the end of one. Deletes itself.
+class EvaluateStreams::Stream {
+ public:
+  explicit Stream(EvaluateStreams& streams) : streams_(streams), member_(streams.threads_), peer_(&context_) {
+    context_.AsyncNotifyWhenDone(&ended_);
+    grpc::ServerCompletionQueue* const queue = streams_.threads_.queue();
+    streams_.service_.RequestEvaluateStream(&context_, &peer_, queue, queue, &came_);
+  }
+  ~Stream() {
+    if (is_open_) --streams_.open_;
+  }
+
+ private:
+  using Lock = std::unique_lock<std::mutex>;
+
+  // A message with points, from when it is read to when its answer is written.
+  struct Work {
+    v1::EvaluateStreamRequest request;
+    MessagePoints points;
+    std::optional<ResultMessage> result;  // none: into shared memory
+    bool is_done = false;
+    absl::Status status;
+  };
+
+  void on_call(bool is_ok) {
+    if (!is_ok) {  // the server is shut down, and on_ended will not come
+      delete this;
+      return;
+    }
+    new Stream(streams_);
+    Lock lock(mutex_);
+    is_open_ = true;
+    const int most = streams_.service_.limits().max_streams;
+    if (++streams_.open_ > most) {
+      decide(absl::ResourceExhaustedError(absl::StrCat(
+          most,
+          " streams are open, as many as are admitted (three quarters of --max-threads): close one, or try again")));
+    }
+    go_on(std::move(lock));
+  }
+
+  void on_read(bool is_ok) {
+    Lock lock(mutex_);
+    if (!is_ok || outcome_) {
+      is_reading_ = false;
+      is_input_over_ = true;
+      if (!batch_) {
+        input_status_ =
+            absl::InvalidArgumentError("the stream is empty: expected a first message that states the scene");
+      }
+      return leave(std::move(lock));
+    }
+    lock.unlock();
+    // Until is_reading_ is false what follows is this thread's alone.
+    auto work = std::make_unique<Work>();
+    const absl::Status status = parse(work->request);
+    Work* const to_do = status.ok() && PointFields(work->request).has_points() ? work.get() : nullptr;
+    lock.lock();
+    is_reading_ = false;
+    if (!status.ok()) {
+      is_input_over_ = true;
+      input_status_ = status;
+    }
+    if (!to_do) return leave(std::move(lock));
+    work_.push_back(std::move(work));
+    read_next();  // while this one is evaluated
+    lock.unlock();
+    evaluate(*to_do);
+  }
+
+  void on_evaluated(Work& work, absl::Status status) {
+    Lock lock(mutex_);
+    work.status = std::move(status);
+    work.is_done = true;
+    leave(std::move(lock));
+  }
+
+  void on_written(bool is_ok) {
+    Lock lock(mutex_);
+    is_writing_ = false;
+    points_answered_ += work_.front()->points.points.size();
+    work_.pop_front();
+    if (!is_ok && !outcome_) decide(absl::CancelledError("the client is gone"));
+    leave(std::move(lock));
+  }
+
+  void on_part_done() { leave(Lock(mutex_)); }
+
+  // The message that has come, and of the first one what it says of the stream.
+  absl::Status parse(v1::EvaluateStreamRequest& request) {
+    if (!grpc::SerializationTraits<v1::EvaluateStreamRequest>::Deserialize(&incoming_, &request).ok()) {
+      return absl::InvalidArgumentError("the message cannot be read: expected an EvaluateStreamRequest");
+    }
+    if (batch_) {
+      const bool is_bare = !request.has_scene() && request.quantity() == v1::QUANTITY_UNSPECIFIED &&
+                           request.priority() == v1::PRIORITY_UNSPECIFIED;
+      if (is_bare) return absl::OkStatus();
+      return absl::InvalidArgumentError("scene, quantity and priority are stated in a stream's first message alone");
+    }
+    absl::StatusOr<engine::PointBatch> batch = streams_.service_.begin(context_, request);
+    if (!batch.ok()) return batch.status();
+    batch->is_admitted = true;  // of each open stream some messages at a time
+    batch->cancelled = [this] { return is_over_ || context_.IsCancelled(); };
+    batch_ = *std::move(batch);
+    return absl::OkStatus();
+  }
+
+  // A large one is evaluated on this thread.
+  void evaluate(Work& work) {
+    engine::PointBatch batch = *batch_;
+    absl::StatusOr<MessagePoints> points = streams_.service_.points_of(work.request, batch.quantity);
+    if (!points.ok()) return on_evaluated(work, points.status());
+    work.points = *std::move(points);
+    batch.xyz = work.points.points.xyz();
+    if (work.points.result) {
+      batch.out = work.points.shared_numbers();
+    } else {
+      work.result.emplace(work.points.points.size(), engine::components(batch.quantity));
+      batch.out = work.result->numbers();
+    }
+    streams_.service_.engine().submit(std::move(batch),
+                                      [this, &work](const absl::Status& s) { on_evaluated(work, s); });
+  }
+
+  // How the stream ends.
+  void decide(const absl::Status& status) {
+    outcome_ = to_grpc(status);
+    is_over_ = !status.ok();
+  }
+
+  void read_next() {
+    if (outcome_ || is_reading_ || is_input_over_ || work_.size() >= kAtHand) return;
+    is_reading_ = true;
+    ++parts_;
+    peer_.Read(&incoming_, &read_);
+  }
+
+  // Starts what can be started. The last thing that a thread does here.
+  void go_on(Lock lock) {
+    const bool is_answer_ready = !outcome_ && !is_writing_ && !work_.empty() && work_.front()->is_done;
+    if (is_answer_ready && !work_.front()->status.ok()) {
+      const absl::Status& s = work_.front()->status;
+      decide(absl::Status(s.code(), absl::StrCat("after ", points_answered_, " points: ", s.message())));
+    } else if (is_answer_ready) {
+      is_writing_ = true;
+      ++parts_;
+    } else if (!outcome_ && work_.empty() && is_input_over_) {
+      decide(input_status_);
+    }
+    read_next();
+    if (outcome_ && !is_writing_ && !is_finished_) {
+      is_finished_ = true;
+      ++parts_;
+      peer_.Finish(*outcome_, &part_done_);
+    }
+    if (!is_answer_ready || !is_writing_) return;
+    Work& work = *work_.front();
+    lock.unlock();
+    const grpc::Slice nothing;
+    peer_.Write(work.result ? work.result->take() : grpc::ByteBuffer(&nothing, 1), &written_);
+  }
+
+  // The same at the end of a part.
+  void leave(Lock lock) {
+    if (--parts_ > 0) return go_on(std::move(lock));
+    lock.unlock();
+    delete this;
+  }
+
+  EvaluateStreams& streams_;
+  const CallThreads::Member member_;
+  grpc::ServerContext context_;
+  grpc::ServerAsyncReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer> peer_;
+  // Ended: answered, cancelled or broken off, which only then the context knows.
+  CallThreads::Event came_ = [this](bool is_ok) { on_call(is_ok); };
+  CallThreads::Event read_ = [this](bool is_ok) { on_read(is_ok); };
+  CallThreads::Event written_ = [this](bool is_ok) { on_written(is_ok); };
+  CallThreads::Event part_done_ = [this](bool) { on_part_done(); }, ended_ = part_done_;
+
+  grpc::ByteBuffer incoming_;                // of the thread that reads
+  std::optional<engine::PointBatch> batch_;  // lacks the points; from the first message on
+  std::atomic<bool> is_over_ = false;        // the work that goes on is in vain
+
+  std::mutex mutex_;
+  std::deque<std::unique_ptr<Work>> work_;  // in order
+  int parts_ = 1;                           // under way: operations, evaluations, and the call, until it has ended
+  bool is_open_ = false, is_reading_ = false, is_writing_ = false, is_input_over_ = false, is_finished_ = false;
+  absl::Status input_status_;
+  std::optional<grpc::Status> outcome_;
+  std::uint64_t points_answered_ = 0;
+};
+
+void EvaluateStreams::start(int threads) {
+  new Stream(*this);
+  threads_.start(threads);
+}
+
+}  // namespace isofield::rpc
