@@ -16,6 +16,7 @@ struct Config {
   std::string log_level = "info";
   int drain_seconds = 10;
   int max_threads = 256;
+  std::uint64_t hot_points = 1u << 20;  // 0: no kernel is written
   rpc::Limits limits;
 };
 

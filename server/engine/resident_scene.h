@@ -19,7 +19,7 @@ namespace isofield::engine {
 
 // Immutable: an edit makes a new one. A shared_ptr to it is the lease under which a request reads; the buffers go when
 // the last lease does.
-class ResidentScene {
+class ResidentScene : public std::enable_shared_from_this<ResidentScene> {
  public:
   static absl::StatusOr<std::shared_ptr<const ResidentScene>> create(gpu::Device& device, VolumeCache& volumes,
                                                                      blobtree::Tape tape);
