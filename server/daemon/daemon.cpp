@@ -125,8 +125,9 @@ absl::Status run(const Config& config, const std::string& version) {
   options.name = config.device;
   options.validation = config.validation;
   options.on_validation_message = [](const std::string& message) { spdlog::error("Vulkan validation: {}", message); };
-  ISOFIELD_ASSIGN_OR_RETURN(const std::unique_ptr<engine::Engine> engine,
-                            engine::Engine::create(options, config.limits.scene, config.limits.queue, tier_two(config)));
+  ISOFIELD_ASSIGN_OR_RETURN(
+      const std::unique_ptr<engine::Engine> engine,
+      engine::Engine::create(options, config.limits.scene, config.limits.queue, tier_two(config)));
   const gpu::DeviceDescription& d = engine->device().description();
   spdlog::info("isofieldd {} on {} ({}, Vulkan {})", version, d.name, d.driver, d.vulkan_version);
 

@@ -27,9 +27,8 @@ std::string_view bytes_of(const std::vector<std::uint32_t>& words) {
 }
 
 Head head_of(std::string_view text, std::string_view spirv) {
-  return {.text_bytes = text.size(),
-          .spirv_bytes = spirv.size(),
-          .hash = shaders::hash_of(spirv, shaders::hash_of(text))};
+  return {
+      .text_bytes = text.size(), .spirv_bytes = spirv.size(), .hash = shaders::hash_of(spirv, shaders::hash_of(text))};
 }
 
 }  // namespace

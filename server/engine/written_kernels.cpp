@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/session.h"
@@ -19,6 +20,19 @@ constexpr std::size_t kMostStructures = 1024;
 // Kernels at most: they live as long as the process.
 constexpr std::uint64_t kMostKernels = 256;
 constexpr int kNiceness = 10;
+
+// That cost less than a leaf.
+constexpr bool is_light(blobtree::Operator op) {
+  using enum blobtree::Operator;
+  return op == kPush || op == kSum || op == kMax || op == kMin || op == kSubtract || op == kSubtractFrom ||
+         op == kLinear || op == kSoften;
+}
+
+std::size_t most_instructions(const blobtree::Tape& tape) {
+  const bool all_light =
+      std::all_of(tape.code.begin(), tape.code.end(), [](const auto& i) { return is_light(i.op()); });
+  return all_light ? WrittenKernels::kMostInstructions : WrittenKernels::kMostHeavyInstructions;
+}
 
 }  // namespace
 
@@ -45,7 +59,7 @@ WrittenKernels::Key WrittenKernels::key_of(const blobtree::Tape& tape, bool with
 
 const gpu::Pipeline* WrittenKernels::find(const ResidentScene& scene, bool with_gradient, std::uint64_t points) {
   const blobtree::Tape& tape = scene.tape();
-  if (!options_.is_on || tape.code.size() > kMostInstructions || !is_writable(tape)) return nullptr;
+  if (!options_.is_on || tape.code.size() > most_instructions(tape) || !is_writable(tape)) return nullptr;
   Key key = key_of(tape, with_gradient);
   const std::lock_guard lock(mutex_);
   if (entries_.size() >= kMostStructures && !entries_.contains(key)) forget_cold();

@@ -38,8 +38,9 @@ class WrittenKernels {
   // Waits for the kernel that is being compiled.
   ~WrittenKernels();
 
-  // The longest tape that gets a kernel.
-  static constexpr std::size_t kMostInstructions = 64;
+  // The longest tapes that get a kernel: of sums and the like, and of operators that take longer than a leaf. Measured
+  // on lavapipe: beyond, sorting the points and pruning the tape gain more.
+  static constexpr std::size_t kMostInstructions = 64, kMostHeavyInstructions = 12;
 
   // The kernel of shaders/tape_points.comp for the scene's whole tape, or null where there is none, not yet, or never.
   // Never waits for one. `points`: how many will be evaluated now.

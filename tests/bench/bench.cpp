@@ -115,8 +115,8 @@ std::vector<float> random_points(std::size_t count) {
 }
 
 void count_points(benchmark::State& state, std::size_t count) {
-  state.counters["points/s"] = benchmark::Counter(static_cast<double>(count * static_cast<std::size_t>(state.iterations())),
-                                                  benchmark::Counter::kIsRate);
+  state.counters["points/s"] = benchmark::Counter(
+      static_cast<double>(count * static_cast<std::size_t>(state.iterations())), benchmark::Counter::kIsRate);
 }
 
 void points(benchmark::State& state, const v1::Scene& scene, Quantity quantity, std::size_t count = 1 << 20,
@@ -187,9 +187,8 @@ void register_all() {
       add("points/" + spheres + name + "/value and gradient, bare kernel",
           [count, join = join](benchmark::State& s) { bare_kernel(s, soft_spheres(count, join)); });
     }
-    add("points/" + spheres + " sum/value and gradient, 64 points", [count](benchmark::State& s) {
-      points(s, soft_spheres(count, Join::kSum), Quantity::kValueAndGradient, 64);
-    });
+    add("points/" + spheres + " sum/value and gradient, 64 points",
+        [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), Quantity::kValueAndGradient, 64); });
     add("points/" + spheres + " sum/value",
         [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), Quantity::kValue); });
   }
