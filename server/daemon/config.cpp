@@ -33,7 +33,7 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   app.set_config("--config", "", "Read options from a TOML or INI file");
   app.add_option("--listen", c.listen, "Address to serve: HOST:PORT (port 0: any free one) or unix:PATH")
       ->envname("ISOFIELD_LISTEN");
-  app.add_option("--data-dir", c.data_dir, "Folder for what outlives the process: today the compiled shaders")
+  app.add_option("--data-dir", c.data_dir, "Folder for what outlives the process: today the compiled kernels")
       ->envname("ISOFIELD_DATA_DIR");
   app.add_option("--device", c.device, "Part of the name of the Vulkan device to use; empty: the best one")
       ->envname("ISOFIELD_DEVICE");
@@ -50,6 +50,9 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
          "and three quarters as many streams may be open")
       ->envname("ISOFIELD_MAX_THREADS")
       ->check(CLI::Range(4, 65536));
+  app.add_option("--hot-points", c.hot_points,
+                 "Points evaluated of small scenes of one structure before a kernel is compiled for it; 0: never")
+      ->envname("ISOFIELD_HOT_POINTS");
   app.add_option("--max-nodes", c.limits.scene.max_nodes, "Nodes of a scene")->envname("ISOFIELD_MAX_NODES");
   app.add_option("--max-primitives", c.limits.scene.max_primitives, "Primitives of a scene after instancing")
       ->envname("ISOFIELD_MAX_PRIMITIVES");

@@ -17,6 +17,7 @@ struct Config {
   int drain_seconds = 10;
   int max_threads = 256;
   bool shared_memory = false;
+  std::uint64_t hot_points = 1u << 20;  // 0: no kernel is written
   rpc::Limits limits;
 };
 

@@ -64,6 +64,12 @@ std::string region_socket_path(const Config& config) {
   return path.empty() ? "" : std::filesystem::absolute(path).string() + ".shm";
 }
 
+engine::TierTwoOptions tier_two(const Config& config) {
+  return {.is_on = config.hot_points > 0,
+          .hot_points = config.hot_points,
+          .folder = config.data_dir.empty() ? "" : (std::filesystem::path(config.data_dir) / "kernels").string()};
+}
+
 sigset_t stop_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -141,8 +147,9 @@ absl::Status run(const Config& config, const std::string& version) {
   options.name = config.device;
   options.validation = config.validation;
   options.on_validation_message = [](const std::string& message) { spdlog::error("Vulkan validation: {}", message); };
-  ISOFIELD_ASSIGN_OR_RETURN(const std::unique_ptr<engine::Engine> engine,
-                            engine::Engine::create(options, config.limits.scene, config.limits.queue));
+  ISOFIELD_ASSIGN_OR_RETURN(
+      const std::unique_ptr<engine::Engine> engine,
+      engine::Engine::create(options, config.limits.scene, config.limits.queue, tier_two(config)));
   const gpu::DeviceDescription& d = engine->device().description();
   spdlog::info("isofieldd {} on {} ({}, Vulkan {})", version, d.name, d.driver, d.vulkan_version);
 

@@ -7,12 +7,14 @@
 
 namespace isofield::engine {
 
-Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue)
+Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue,
+               const TierTwoOptions& tier_two)
     : device_(std::move(device)),
       limits_(limits),
       kernels_(*device_),
       volumes_(*device_, kernels_),
-      fields_(*device_, kernels_),
+      written_(*device_, tier_two),
+      fields_(*device_, kernels_, &written_),
       queue_(
           device_->turns(),
           [this](const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
@@ -26,9 +28,10 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
       operators_(*device_, kernels_, volumes_) {}
 
 absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions& options,
-                                                       const blobtree::SceneLimits& limits, const QueueLimits& queue) {
+                                                       const blobtree::SceneLimits& limits, const QueueLimits& queue,
+                                                       const TierTwoOptions& tier_two) {
   ISOFIELD_ASSIGN_OR_RETURN(auto device, gpu::Device::create(options));
-  return std::unique_ptr<Engine>(new Engine(std::move(device), limits, queue));
+  return std::unique_ptr<Engine>(new Engine(std::move(device), limits, queue, tier_two));
 }
 
 absl::StatusOr<SceneLease> Engine::make_resident(const v1::Scene& scene, const blobtree::OperatorTable& operators) {

@@ -18,6 +18,7 @@
 #include "engine/ray_caster.h"
 #include "engine/resident_scene.h"
 #include "engine/surface_projector.h"
+#include "engine/written_kernels.h"
 #include "gpu/device.h"
 #include "isofield/v1/scene.pb.h"
 
@@ -28,7 +29,8 @@ class Engine {
  public:
   static absl::StatusOr<std::unique_ptr<Engine>> create(const gpu::DeviceOptions& options,
                                                         const blobtree::SceneLimits& limits,
-                                                        const QueueLimits& queue = {});
+                                                        const QueueLimits& queue = {},
+                                                        const TierTwoOptions& tier_two = {});
 
   // Validates, compiles and uploads. `operators`: those that custom nodes name. INVALID_ARGUMENT as stated in
   // scene.proto.
@@ -58,18 +60,21 @@ class Engine {
 
   gpu::Device& device() { return *device_; }
   FieldEvaluator& fields() { return fields_; }
+  WrittenKernels& written_kernels() { return written_; }
   Mesher& mesher() { return mesher_; }
   RayCaster& rays() { return rays_; }
   SurfaceProjector& projector() { return projector_; }
   OperatorEvaluator& operators() { return operators_; }
 
  private:
-  Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue);
+  Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue,
+         const TierTwoOptions& tier_two);
 
   std::unique_ptr<gpu::Device> device_;
   blobtree::SceneLimits limits_;
   KernelCache kernels_;
   VolumeCache volumes_;
+  WrittenKernels written_;
   FieldEvaluator fields_;
   EvaluationQueue queue_;
   Mesher mesher_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "blobtree/point_bins.h"
 #include "engine/session.h"
@@ -31,6 +32,16 @@ std::vector<PointJob> point_jobs(const blobtree::PointBins& bins) {
 // Instructions times points of one submission: what a cancelled request still waits for, and others with it. About
 // 0.07 s of gradient blends on two cores.
 constexpr std::uint64_t kSubmissionWork = 1u << 21;
+
+// Of a written kernel: points of a submission, which comes and goes while the device is at another and stays in the
+// processor's caches, and of a workgroup (shaders/tape_points.comp).
+constexpr std::size_t kWrittenPoints = 1u << 15;
+constexpr std::uint32_t kWrittenGroup = 64;
+
+struct WrittenPiece {
+  gpu::Buffer points, results;
+  Session session;  // last: it waits for the device, which uses the others
+};
 
 // Calls dispatch(first, count, window) for runs of workgroups whose tapes lie in one window, `windows` says in which;
 // after every kSubmissionWork the work so far is waited for.
@@ -78,6 +89,9 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
                                       std::span<float> out, const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3;
   if (count == 0) return absl::OkStatus();
+  const gpu::Pipeline* const written =
+      written_ ? written_->find(scene, quantity == Quantity::kValueAndGradient, count) : nullptr;
+  if (written) return evaluate_written(*written, scene, xyz, quantity, out, cancelled, std::move(submission));
   blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
   std::vector<PointJob> jobs = point_jobs(bins);
   if (jobs.empty()) {
@@ -113,6 +127,32 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
       }));
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
   return session.run();
+}
+
+absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const ResidentScene& scene,
+                                              std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                                              const Cancelled& cancelled, Submission submission) {
+  const std::size_t count = xyz.size() / 3;
+  std::optional<WrittenPiece> running;
+  for (std::size_t first = 0; first < count; first += kWrittenPoints) {
+    if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
+    const std::size_t part = std::min(kWrittenPoints, count - first);
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
+    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.upload(xyz.subspan(3 * first, 3 * part)));
+    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.scratch(part * components(quantity) * sizeof(float)));
+    const auto last = static_cast<std::uint32_t>(part - 1);
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel, scene.bindings(points, {{6, &points}, {7, &results}}),
+                                                         last, last / kWrittenGroup + 1));
+    ISOFIELD_RETURN_IF_ERROR(
+        session.download(results, out.subspan(first * components(quantity), part * components(quantity))));
+    if (running) ISOFIELD_RETURN_IF_ERROR(running->session.wait());
+    ISOFIELD_RETURN_IF_ERROR(session.submit());
+    if (running) running->session.collect();
+    running = WrittenPiece{std::move(points), std::move(results), std::move(session)};
+  }
+  ISOFIELD_RETURN_IF_ERROR(running->session.wait());
+  running->session.collect();
+  return absl::OkStatus();
 }
 
 absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,

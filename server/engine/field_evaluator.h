@@ -9,6 +9,7 @@
 #include "blobtree/lattice.h"
 #include "engine/kernel_cache.h"
 #include "engine/resident_scene.h"
+#include "engine/written_kernels.h"
 #include "gpu/turns.h"
 
 namespace isofield::engine {
@@ -21,7 +22,9 @@ inline std::size_t components(Quantity q) {
 // Thread-safe.
 class FieldEvaluator {
  public:
-  FieldEvaluator(gpu::Device& device, KernelCache& kernels) : device_(device), kernels_(kernels) {}
+  // `written`: none where all is interpreted.
+  FieldEvaluator(gpu::Device& device, KernelCache& kernels, WrittenKernels* written = nullptr)
+      : device_(device), kernels_(kernels), written_(written) {}
 
   // Asked between submissions; true ends the work with CANCELLED.
   using Cancelled = std::function<bool()>;
@@ -44,8 +47,13 @@ class FieldEvaluator {
                                Quantity quantity, std::span<float> out, const Cancelled& cancelled = {});
 
  private:
+  absl::Status evaluate_written(const gpu::Pipeline& kernel, const ResidentScene& scene, std::span<const float> xyz,
+                                Quantity quantity, std::span<float> out, const Cancelled& cancelled,
+                                Submission submission);
+
   gpu::Device& device_;
   KernelCache& kernels_;
+  WrittenKernels* written_;
 };
 
 }  // namespace isofield::engine

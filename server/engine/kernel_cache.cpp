@@ -75,10 +75,7 @@ absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shad
     kernel = it->second;
   }
   if (compiles) {
-    const std::array<std::uint32_t, 7> constants{kind.operand_set, kind.operator_set, kind.stack_depth,
-                                                 kind.tape_length, kind.arity,        kind.volume_set,
-                                                 kind.uniform_set};
-    auto pipeline = gpu::Pipeline::create(device_, shader, constants);
+    auto pipeline = gpu::Pipeline::create(device_, shader, kind.constants());
     if (!pipeline.ok()) {
       // A later request may find the memory that was missing.
       const std::lock_guard lock(mutex_);

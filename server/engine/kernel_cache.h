@@ -31,6 +31,11 @@ struct KernelKind {
   static KernelKind single_leaf(const blobtree::Tape& tape);
   // Of tapes in windows, with what they name, or of those that are not. `shares_loads`: shaders/lib/parameters.glsl.
   KernelKind windowed(bool is_windowed, bool shares_loads) const;
+
+  // As specialisation constants 0, 1, 2, ...
+  std::array<std::uint32_t, 7> constants() const {
+    return {operand_set, operator_set, stack_depth, tape_length, arity, volume_set, uniform_set};
+  }
 };
 
 // Thread-safe. A kernel that two threads want is compiled once, and the second waits.

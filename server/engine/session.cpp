@@ -45,16 +45,26 @@ absl::Status Session::download_bytes(const Buffer& buffer, std::span<std::byte> 
   return absl::OkStatus();
 }
 
-absl::Status Session::submit_in_turn() {
+absl::Status Session::submit() {
   if (!turn_) turn_ = device_->turns().take(urgency_);
   absl::Status status = commands_.submit();
-  if (status.ok()) status = commands_.wait();
+  if (!status.ok()) turn_ = {};
+  return status;
+}
+
+absl::Status Session::wait() {
+  absl::Status status = commands_.wait();
   turn_ = {};
   return status;
 }
 
+void Session::collect() {
+  for (const Download& d : downloads_) std::memcpy(d.to.data(), d.from, d.to.size());
+}
+
 absl::Status Session::flush() {
-  if (absl::Status s = submit_in_turn(); !s.ok()) return s;
+  if (absl::Status s = submit(); !s.ok()) return s;
+  if (absl::Status s = wait(); !s.ok()) return s;
   absl::StatusOr<gpu::Commands> commands = gpu::Commands::begin(*device_);
   if (!commands.ok()) return commands.status();
   commands_ = *std::move(commands);
@@ -62,8 +72,9 @@ absl::Status Session::flush() {
 }
 
 absl::Status Session::run() {
-  if (absl::Status s = submit_in_turn(); !s.ok()) return s;
-  for (const Download& d : downloads_) std::memcpy(d.to.data(), d.from, d.to.size());
+  if (absl::Status s = submit(); !s.ok()) return s;
+  if (absl::Status s = wait(); !s.ok()) return s;
+  collect();
   return absl::OkStatus();
 }
 

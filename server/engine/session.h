@@ -42,6 +42,10 @@ class Session {
   absl::Status flush();
   // Submits, waits, and carries out the downloads. The session is over.
   absl::Status run();
+  // The same in steps, for work of the host's beside the device's. The turn is held from submit() to the end of wait().
+  absl::Status submit();
+  absl::Status wait();
+  void collect();
 
  private:
   struct Download {
@@ -50,7 +54,6 @@ class Session {
   };
   Session(gpu::Device& device, const gpu::Urgency& urgency, gpu::Turns::Turn turn, gpu::Commands commands)
       : device_(&device), urgency_(urgency), turn_(std::move(turn)), commands_(std::move(commands)) {}
-  absl::Status submit_in_turn();
   absl::StatusOr<gpu::Buffer> upload_bytes(std::span<const std::byte> data);
   absl::Status download_bytes(const gpu::Buffer& buffer, std::span<std::byte> out);
 

@@ -3,11 +3,8 @@
 #ifndef INTERPRETER_GLSL
 #define INTERPRETER_GLSL
 
+#include "instruction.glsl"
 #include "leaves.glsl"
-#include "operators.glsl"
-
-// Coordinates beyond would overflow when squared; all supports lie within.
-const float FARTHEST = 1e10;
 
 #define SHIFT_DOWN(n, above) if (STACK_DEPTH > n) s##n = above
 #define FOR_EACH_REGISTER_UP                                                                                 \
@@ -23,13 +20,12 @@ const float FARTHEST = 1e10;
   SHIFT_UP(12u, s13u, 13u); SHIFT_UP(13u, s14u, 14u); SHIFT_UP(14u, s15u, 15u)
 
 Field evaluate(vec3 point, uint begin, uint count) {
-  vec3 p = clamp(point, vec3(-FARTHEST), vec3(FARTHEST));
+  vec3 p = within_reach(point);
   // The first instruction pushes. Out of the loop, since on lavapipe a loop runs all of its body for it, blends included.
   uvec4 start = instruction_at(begin);
   Field acc = leaf_field(p, start.x & 0xffu, start.y);
   Field s0u = acc, s1u = acc, s2u = acc, s3u = acc, s4u = acc, s5u = acc, s6u = acc, s7u = acc, s8u = acc, s9u = acc,
         s10u = acc, s11u = acc, s12u = acc, s13u = acc, s14u = acc, s15u = acc;
-  Field first = acc, second = acc;  // of an operator with a mode
   uint len = TAPE_LENGTH > 0u ? TAPE_LENGTH : count;
   for (uint n = 1u; n < len; ++n) {
     uvec4 i = instruction_at(begin + n);
@@ -41,49 +37,16 @@ Field evaluate(vec3 point, uint begin, uint count) {
       acc = s0u;
       FOR_EACH_REGISTER_DOWN;
     }
-    Field r = v;
     if (STACK_DEPTH > 0u && op == OPERATOR_PUSH) {
       FOR_EACH_REGISTER_UP;
       s0u = acc;
     }
-    // The operands in their order, and as the form of the operator wants them.
-    Field a = acc, b = v;
-    if (has_modes()) {
-      bool is_exchanged = (mode & MODE_EXCHANGED) != 0u;
-      a = select_field(acc, v, is_exchanged);
-      b = select_field(v, acc, is_exchanged);
-      first = a;
-      second = b;
-      a = select_field(a, complement(a, mode), (mode & 3u) != FORM_UNION);
-      b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
-    }
-    if (is_operator(op, OPERATOR_GRADIENT)) {
-      r = blend_by_gradient(a, b, operation_at(i.z), SMOOTH_SILHOUETTE, false);
-    } else if (is_operator(op, OPERATOR_GRADIENT_TABLE)) {
-      uint silhouette = silhouette_half(floatBitsToUint(operation_at(i.z).y), a.f, b.f);
-      r = blend_by_gradient(a, b, operation_at(i.z), silhouette, false);
-    } else if (is_operator(op, OPERATOR_GRADIENT_VOLUME)) {
-      r = blend_by_gradient(a, b, operation_at(i.z), floatBitsToUint(operation_at(i.z).y), true);
-    } else if (op != OPERATOR_PUSH) {
-      Angle angle = no_angle();
-      if (may_follow_angle()) angle = angle_between(a, b);
-      r = unite(a, b, op, i.z, angle);
-    }
-    if (has_modes()) r = formed(r, first, second, mode);
-    if (is_operator(op, OPERATOR_LINEAR)) r = linear(acc, operation_at(i.z).x, operation_at(i.z).y);
-    if (is_operator(op, OPERATOR_SOFTEN)) r = softened(acc, operation_at(i.z).x);
-    bool is_btk = is_operator(op, OPERATOR_BTK);
-    if (is_btk || is_operator(op, OPERATOR_SUPERELLIPTIC)) {
+    Field r = apply_operator(acc, v, op, mode, i.z);
+    if (is_of_many(op)) {
       // The last operand is the accumulator, those before wait below it in the order of the registers.
       Field x[MAX_OPERANDS] = Field[MAX_OPERANDS](acc, s0u, s1u, s2u, s3u, s4u, s5u, s6u, s7u, s8u, s9u, s10u, s11u,
                                                   s12u, s13u, s14u);
-      uint form = mode & 3u;
-      if (has_modes() && form != FORM_UNION) turn_operands(x, i.y, form);
-      Angle angle = no_angle();
-      if (may_follow_angle()) angle = angle_between(x[0], x[1]);
-      if (is_btk) r = blend_btk(x, i.y, i.z, angle);
-      else r = blend_superelliptic(x, i.y, i.z, angle);
-      if (has_modes()) r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
+      r = apply_to_many(x, op, i.y, mode, i.z);
       for (int k = bitCount(i.y); k > 1; --k) {
         FOR_EACH_REGISTER_DOWN;
       }

@@ -6,6 +6,10 @@
 #include "field.glsl"
 #include "parameters.glsl"
 
+// Coordinates beyond would overflow when squared; all supports lie within.
+const float FARTHEST = 1e10;
+vec3 within_reach(vec3 point) { return clamp(point, vec3(-FARTHEST), vec3(FARTHEST)); }
+
 // A distance with its gradient and Hessian, in whatever frame.
 struct Distance {
   float d;
@@ -164,32 +168,32 @@ Field placed_field(Placement at, Distance s) {
 
 Field leaf_field(vec3 p, uint operand, uint record) {
   Field v = zero_field();
-  if (is_operand(operand, OPERAND_SPHERE)) {
+  IF_OPERAND(operand, OPERAND_SPHERE) {
     Pair sphere = leaf_pair_at(record);
     v = soften(sphere_distance(p - sphere.a.xyz, sphere.b.x), sphere.a.w);
   }
-  if (is_operand(operand, OPERAND_SEGMENT)) {
+  IF_OPERAND(operand, OPERAND_SEGMENT) {
     Pair line = leaf_pair_at(record);
     vec4 cone = leaf_at(record + 2u);
     v = soften(segment_distance(p - line.a.xyz, line.b.xyz, line.b.w, cone.x, cone.y, cone.z), line.a.w);
   }
-  if (is_operand(operand, OPERAND_BOX)) {
+  IF_OPERAND(operand, OPERAND_BOX) {
     Placement at = place(p, record);
     v = placed_field(at, box_distance(at.q, at.size, leaf_at(record + 4u).x));
   }
-  if (is_operand(operand, OPERAND_CYLINDER)) {
+  IF_OPERAND(operand, OPERAND_CYLINDER) {
     Placement at = place(p, record);
     v = placed_field(at, cylinder_distance(at.q, at.size.x, at.size.y));
   }
-  if (is_operand(operand, OPERAND_TORUS)) {
+  IF_OPERAND(operand, OPERAND_TORUS) {
     Placement at = place(p, record);
     v = placed_field(at, torus_distance(at.q, at.size.x, at.size.y));
   }
-  if (is_operand(operand, OPERAND_ELLIPSOID)) {
+  IF_OPERAND(operand, OPERAND_ELLIPSOID) {
     Placement at = place(p, record);
     v = placed_field(at, sphere_distance(at.q, at.size.x));
   }
-  if (is_operand(operand, OPERAND_AFFINE_SEGMENT)) {
+  IF_OPERAND(operand, OPERAND_AFFINE_SEGMENT) {
     Placement at = place(p, record);
     float slope = at.size.z;
     float tan_tilt = -slope * inversesqrt(max(1.0 - slope * slope, 1e-12));

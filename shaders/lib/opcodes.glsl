@@ -46,7 +46,9 @@ const uint MODE_SIGNED = 4u;
 const uint MODE_EXCHANGED = 8u;
 
 // A kernel is specialised to the opcodes of the tapes it runs: on lavapipe every branch of a shader costs, taken or not,
-// and only code that is dead at pipeline creation costs nothing.
+// and only code that is dead at pipeline creation costs nothing. Where the tape is known when GLSL is compiled
+// (tape_points.comp), these are macros: what they switch off, some nine tenths, is dropped before the driver sees it.
+#ifndef OPERAND_SET
 layout(constant_id = 0) const uint OPERAND_SET = 0xffffffffu;
 layout(constant_id = 1) const uint OPERATOR_SET = 0xffffffffu;
 layout(constant_id = 2) const uint STACK_DEPTH = 16u;
@@ -55,11 +57,19 @@ layout(constant_id = 2) const uint STACK_DEPTH = 16u;
 layout(constant_id = 3) const uint TAPE_LENGTH = 0u;
 // Most operands of an n-ary operator.
 layout(constant_id = 4) const uint ARITY = 16u;
+// The slots of volumes that a kernel's tapes use, by bits: the look-up in another is dropped before compilation.
+layout(constant_id = 5) const uint VOLUME_SET = 0xfu;
+// Parameters in uniform buffers. 1: leaves, 2: operations, 4: tape; 8, with all of these: invocations share loads.
+layout(constant_id = 6) const uint UNIFORM_SET = 0u;
+#endif
 
-bool has_operand(uint operand) { return (OPERAND_SET >> operand & 1u) != 0u; }
-bool has_operator(uint op) { return (OPERATOR_SET >> op & 1u) != 0u; }
-bool has_modes() { return (OPERATOR_SET & MODES) != 0u; }
-bool has_signed_leaves() { return (OPERAND_SET & SIGNED_LEAVES) != 0u; }
+// Macros, since GLSL's compiler folds no calls.
+#define has_operand(operand) ((OPERAND_SET >> (operand) & 1u) != 0u)
+#define has_operator(op) ((OPERATOR_SET >> (op) & 1u) != 0u)
+#define has_modes() ((OPERATOR_SET & MODES) != 0u)
+#define has_signed_leaves() ((OPERAND_SET & SIGNED_LEAVES) != 0u)
+// Whether a kernel's operators may follow an angle; one does whose omega is not negative.
+#define may_follow_angle() ((OPERATOR_SET & BY_ANGLE) != 0u)
 
 // Comparisons that the sets decide are dropped with their branches.
 bool is_operand(uint operand, uint candidate) {
@@ -69,12 +79,16 @@ bool is_operand(uint operand, uint candidate) {
 bool is_operator(uint op, uint candidate) {
   return has_operator(candidate) && (OPERATOR_SET == (1u << OPERATOR_PUSH | 1u << candidate) && STACK_DEPTH == 0u || op == candidate);
 }
+// The same, where the compiler drops what no set has.
+#define IF_OPERAND(operand, candidate) \
+  if (has_operand(candidate)) if (is_operand(operand, candidate))
+#define IF_OPERATOR(op, candidate) \
+  if (has_operator(candidate)) if (is_operator(op, candidate))
 
 // Gradient blends, and ranges that follow an angle, steer by their operands' directions; a tape without them need not
 // carry any.
-bool is_steered() {
-  return has_operator(OPERATOR_GRADIENT) || has_operator(OPERATOR_GRADIENT_TABLE) ||
-         has_operator(OPERATOR_GRADIENT_VOLUME) || (OPERATOR_SET & BY_ANGLE) != 0u;
-}
+#define is_steered()                                                                                               \
+  ((OPERATOR_SET & (1u << OPERATOR_GRADIENT | 1u << OPERATOR_GRADIENT_TABLE | 1u << OPERATOR_GRADIENT_VOLUME |        \
+                    BY_ANGLE)) != 0u)
 
 #endif

@@ -142,8 +142,6 @@ Angle angle_between(Field a, Field b) {
                select_dual(ratio, dual(is_null ? 1.0 : clamp(value_of(ratio), 1.0 / MOST_RATIO, MOST_RATIO)), is_null || is_extreme));
 }
 
-// Whether a kernel's operators may follow an angle; one does whose omega is not negative.
-bool may_follow_angle() { return (OPERATOR_SET & BY_ANGLE) != 0u; }
 Angle no_angle() { return Angle(dual(0.0), dual(1.0)); }
 
 // `angle` counts where the operator follows it.
@@ -307,8 +305,10 @@ Field blend_by_gradient(Field a, Field b, vec4 operation, uint blend, bool is_vo
   float t = t_min + (open.x - t_min) * w1.x * w2.x;
 
   Blend g;
-  if (is_volume) g = volume_blend(a.f, b.f, t, blend & 0xffu, blend >> 8u, operation.w > 0.0);
-  else g = gradient_blend(a.f, b.f, t, blend);
+  if (!is_volume) g = gradient_blend(a.f, b.f, t, blend);
+  if (has_operator(OPERATOR_GRADIENT_VOLUME)) {
+    if (is_volume) g = volume_blend(a.f, b.f, t, blend & 0xffu, blend >> 8u, operation.w > 0.0);
+  }
   Field r = zero_field();
   r.f = g.g;
   r.d = g.g1 * a.d + g.g2 * b.d;
@@ -333,28 +333,28 @@ Field blend_by_gradient(Field a, Field b, vec4 operation, uint blend, bool is_vo
 // The union of two fields by an operator that no opening steers, `op` of `record`. `angle` as for blend_bt2.
 Field unite(Field a, Field b, uint op, uint record, Angle angle) {
   Field r = b;
-  if (is_operator(op, OPERATOR_SUM)) r = sum(a, b);
-  if (is_operator(op, OPERATOR_MAX)) r = select_field(a, b, b.f > a.f);
-  if (is_operator(op, OPERATOR_MIN)) r = select_field(a, b, b.f < a.f);
-  if (is_operator(op, OPERATOR_SUBTRACT)) r = subtract(a, b);
-  if (is_operator(op, OPERATOR_SUBTRACT_FROM)) r = subtract(b, a);
-  if (is_operator(op, OPERATOR_RICCI)) r = ricci(a, b, operation_at(record).xy);
-  if (is_operator(op, OPERATOR_CLEAN)) r = join_positive(a, b, clean_union(dual_of(a), dual_of(b)));
-  if (is_operator(op, OPERATOR_BARTHE)) {
+  IF_OPERATOR(op, OPERATOR_SUM) r = sum(a, b);
+  IF_OPERATOR(op, OPERATOR_MAX) r = select_field(a, b, b.f > a.f);
+  IF_OPERATOR(op, OPERATOR_MIN) r = select_field(a, b, b.f < a.f);
+  IF_OPERATOR(op, OPERATOR_SUBTRACT) r = subtract(a, b);
+  IF_OPERATOR(op, OPERATOR_SUBTRACT_FROM) r = subtract(b, a);
+  IF_OPERATOR(op, OPERATOR_RICCI) r = ricci(a, b, operation_at(record).xy);
+  IF_OPERATOR(op, OPERATOR_CLEAN) r = join_positive(a, b, clean_union(dual_of(a), dual_of(b)));
+  IF_OPERATOR(op, OPERATOR_BARTHE) {
     vec4 o = operation_at(record);
     r = join_positive(a, b, barthe_blend(dual_of(a), dual_of(b), o.x, o.y));
   }
-  if (is_operator(op, OPERATOR_BERNHARDT)) {
+  IF_OPERATOR(op, OPERATOR_BERNHARDT) {
     vec4 o = operation_at(record);
     r = join_positive(a, b, bernhardt_blend(dual_of(a), dual_of(b), o.x, o.y, o.z));
   }
-  if (is_operator(op, OPERATOR_PASKO)) {
+  IF_OPERATOR(op, OPERATOR_PASKO) {
     r = join_binary(a, b, pasko_blend(dual_of(a), dual_of(b), operation_at(record).xyz));
   }
-  if (is_operator(op, OPERATOR_FUNCTIONAL)) {
+  IF_OPERATOR(op, OPERATOR_FUNCTIONAL) {
     r = join_binary(a, b, functional_blend(dual_of(a), dual_of(b), operation_at(record).xyz));
   }
-  if (is_operator(op, OPERATOR_BT2)) r = blend_bt2(a, b, record, angle);
+  IF_OPERATOR(op, OPERATOR_BT2) r = blend_bt2(a, b, record, angle);
   return r;
 }
 

@@ -4,16 +4,17 @@
 
 #include "field.glsl"
 
+#ifdef WITH_GRADIENT
+layout(std430, binding = 7) writeonly buffer Results { vec4 results[]; };
+#else
 layout(std430, binding = 7) writeonly buffer Results { float results[]; };
+#endif
 
 void write_result(uint place, Field a) {
 #ifdef WITH_GRADIENT
   vec3 g = field_gradient(a);
   g = mix(g, vec3(0.0), equal(g, vec3(0.0)));  // one zero: a -0 means nothing to a client
-  results[4u * place] = a.f;
-  results[4u * place + 1u] = g.x;
-  results[4u * place + 2u] = g.y;
-  results[4u * place + 3u] = g.z;
+  results[place] = vec4(a.f, g);
 #else
   results[place] = a.f;
 #endif

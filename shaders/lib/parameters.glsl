@@ -4,6 +4,8 @@
 
 #extension GL_KHR_shader_subgroup_shuffle : require
 
+#include "opcodes.glsl"
+
 layout(std430, binding = 0) readonly buffer Leaves { vec4 leaves[]; };
 layout(std430, binding = 1) readonly buffer Operations { vec4 operations[]; };
 layout(std430, binding = 2) readonly buffer Tables { vec4 tables[]; };
@@ -12,14 +14,12 @@ layout(std430, binding = 3) readonly buffer Tape { uvec4 tape[]; };
 layout(std140, binding = 16) uniform UniformLeaves { vec4 uniform_leaves[4096]; };
 layout(std140, binding = 17) uniform UniformOperations { vec4 uniform_operations[4096]; };
 layout(std140, binding = 18) uniform UniformTape { uvec4 uniform_tape[4096]; };
-// 1: leaves, 2: operations, 4: tape; 8, with all of these: invocations share loads.
-layout(constant_id = 6) const uint UNIFORM_SET = 0u;
 
 // On lavapipe a load from a storage buffer inside of a loop is a loop over the lanes, and one from a uniform buffer some
 // 100 instructions a vec4, also where all lanes ask for the same. So with subgroups of 8 each lane loads one word of two
 // vec4s, and takes the others' by shuffles of one instruction: sums are sampled in 0.6 of the time. All invocations of a
 // subgroup must be active.
-bool shares_loads() { return (UNIFORM_SET & 8u) != 0u; }
+#define shares_loads() ((UNIFORM_SET & 8u) != 0u)
 
 // Two consecutive vec4s.
 struct Pair {

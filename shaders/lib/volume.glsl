@@ -11,15 +11,14 @@ layout(std430, binding = 13) readonly buffer Volume1 { vec4 volume1[]; };
 layout(std430, binding = 14) readonly buffer Volume2 { vec4 volume2[]; };
 layout(std430, binding = 15) readonly buffer Volume3 { vec4 volume3[]; };
 
-// The slots that a kernel's tapes use, by bits: the look-up in another is dropped before compilation.
-layout(constant_id = 5) const uint VOLUME_SET = 0xfu;
-
+#define IF_SLOT(candidate) \
+  if ((VOLUME_SET >> (candidate) & 1u) != 0u) if (VOLUME_SET == 1u << (candidate) || slot == (candidate))
 vec4 volume_node(uint slot, uint at) {
   vec4 v = vec4(0.0);
-  if ((VOLUME_SET & 1u) != 0u && (VOLUME_SET == 1u || slot == 0u)) v = volume0[at];
-  if ((VOLUME_SET & 2u) != 0u && (VOLUME_SET == 2u || slot == 1u)) v = volume1[at];
-  if ((VOLUME_SET & 4u) != 0u && (VOLUME_SET == 4u || slot == 2u)) v = volume2[at];
-  if ((VOLUME_SET & 8u) != 0u && (VOLUME_SET == 8u || slot == 3u)) v = volume3[at];
+  IF_SLOT(0u) v = volume0[at];
+  IF_SLOT(1u) v = volume1[at];
+  IF_SLOT(2u) v = volume2[at];
+  IF_SLOT(3u) v = volume3[at];
   return v;
 }
 

@@ -16,20 +16,28 @@ namespace {
 
 using engine::Quantity;
 
+std::unique_ptr<engine::Engine> make_engine(const engine::TierTwoOptions& tier_two) {
+  auto created = engine::Engine::create({}, {}, {}, tier_two);
+  if (!created.ok()) {
+    std::cerr << created.status() << "\n";
+    std::exit(1);
+  }
+  return *std::move(created);
+}
+
 engine::Engine& the_engine() {
-  static const auto engine = [] {
-    auto created = engine::Engine::create({}, {});
-    if (!created.ok()) {
-      std::cerr << created.status() << "\n";
-      std::exit(1);
-    }
-    return *std::move(created);
-  }();
+  static const auto engine = make_engine({.hot_points = 0});
   return *engine;
 }
 
-engine::SceneLease resident(const v1::Scene& scene) {
-  auto lease = the_engine().make_resident(scene);
+// Without tier two.
+engine::Engine& interpreting_engine() {
+  static const auto engine = make_engine({.is_on = false});
+  return *engine;
+}
+
+engine::SceneLease resident(const v1::Scene& scene, engine::Engine& engine = the_engine()) {
+  auto lease = engine.make_resident(scene);
   if (!lease.ok()) {
     std::cerr << lease.status() << "\n";
     std::exit(1);
@@ -133,19 +141,55 @@ void track(benchmark::State& state, v1::Scene scene, double cell) {
   state.counters["bricks"] = static_cast<double>(bricks);
 }
 
-void points(benchmark::State& state, const v1::Scene& scene, Quantity quantity, std::size_t count = 1 << 20) {
-  const engine::SceneLease lease = resident(scene);
+std::vector<float> random_points(std::size_t count) {
   test_support::Random random(1);
   std::vector<float> xyz(3 * count);
   for (float& x : xyz) x = static_cast<float>(random.number(-1, 1));
+  return xyz;
+}
+
+void count_points(benchmark::State& state, std::size_t count) {
+  state.counters["points/s"] = benchmark::Counter(
+      static_cast<double>(count * static_cast<std::size_t>(state.iterations())), benchmark::Counter::kIsRate);
+}
+
+void points(benchmark::State& state, const v1::Scene& scene, Quantity quantity, std::size_t count = 1 << 20,
+            engine::Engine& engine = the_engine()) {
+  const engine::SceneLease lease = resident(scene, engine);
+  const std::vector<float> xyz = random_points(count);
   std::vector<float> out(xyz.size() / 3 * components(quantity));
-  (void)the_engine().fields().evaluate(*lease, xyz, quantity, out);
+  // A kernel of its own, if it gets one, is compiled before the clock runs.
+  (void)engine.fields().evaluate(*lease, xyz, quantity, out);
+  engine.written_kernels().wait();
   for (auto _ : state) {
-    const absl::Status s = the_engine().fields().evaluate(*lease, xyz, quantity, out);
+    const absl::Status s = engine.fields().evaluate(*lease, xyz, quantity, out);
     if (!s.ok()) return state.SkipWithError(std::string(s.message()).c_str());
   }
-  state.counters["points/s"] =
-      benchmark::Counter(static_cast<double>(xyz.size() / 3 * state.iterations()), benchmark::Counter::kIsRate);
+  count_points(state, count);
+}
+
+// The same kernel alone, value and gradient: points and results stay on the device.
+void bare_kernel(benchmark::State& state, const v1::Scene& scene) {
+  constexpr std::size_t kCount = 1 << 20;
+  const engine::SceneLease lease = resident(scene);
+  engine::WrittenKernels& kernels = the_engine().written_kernels();
+  (void)kernels.find(*lease, true, kCount);
+  kernels.wait();
+  const gpu::Pipeline* const kernel = kernels.find(*lease, true, 0);
+  if (!kernel) return state.SkipWithError("no kernel");
+  const std::vector<float> xyz = random_points(kCount);
+  auto session = engine::Session::begin(the_engine().device()).value();
+  const gpu::Buffer points = session.upload(std::span(xyz)).value();
+  const gpu::Buffer results = session.scratch(4 * kCount * sizeof(float)).value();
+  if (!session.run().ok()) return state.SkipWithError("no upload");
+  constexpr std::uint32_t kLast = kCount - 1;
+  for (auto _ : state) {
+    auto again = engine::Session::begin(the_engine().device()).value();
+    const absl::Status s =
+        again.commands().dispatch(*kernel, lease->bindings(points, {{6, &points}, {7, &results}}), kLast, kCount / 64);
+    if (!s.ok() || !again.run().ok()) return state.SkipWithError("no run");
+  }
+  count_points(state, kCount);
 }
 
 template <class Function>
@@ -169,6 +213,13 @@ void register_all() {
       add("points/" + spheres + name + "/value and gradient", [count, join = join](benchmark::State& s) {
         points(s, soft_spheres(count, join), Quantity::kValueAndGradient);
       });
+      if (count > 64) continue;
+      add("points/" + spheres + name + "/value and gradient, interpreted", [count, join = join](benchmark::State& s) {
+        points(s, soft_spheres(count, join), Quantity::kValueAndGradient, 1 << 20, interpreting_engine());
+      });
+      if (count > 8) continue;
+      add("points/" + spheres + name + "/value and gradient, bare kernel",
+          [count, join = join](benchmark::State& s) { bare_kernel(s, soft_spheres(count, join)); });
     }
     add("points/" + spheres + " sum/value and gradient, 64 points",
         [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), Quantity::kValueAndGradient, 64); });

@@ -1,0 +1,141 @@
+#include "engine/written_kernels.h"
+
+#include <absl/strings/str_cat.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/session.h"
+#include "engine/status_macros.h"
+#include "engine/tape_writer.h"
+#include "shaders/tape_compiler.h"
+
+namespace isofield::engine {
+namespace {
+
+// Structures whose points are counted; of more, those without a kernel are forgotten.
+constexpr std::size_t kMostStructures = 1024;
+// Kernels at most: they live as long as the process.
+constexpr std::uint64_t kMostKernels = 256;
+constexpr int kNiceness = 10;
+
+// That cost less than a leaf.
+constexpr bool is_light(blobtree::Operator op) {
+  using enum blobtree::Operator;
+  return op == kPush || op == kSum || op == kMax || op == kMin || op == kSubtract || op == kSubtractFrom ||
+         op == kLinear || op == kSoften;
+}
+
+std::size_t most_instructions(const blobtree::Tape& tape) {
+  const bool all_light =
+      std::all_of(tape.code.begin(), tape.code.end(), [](const auto& i) { return is_light(i.op()); });
+  return all_light ? WrittenKernels::kMostInstructions : WrittenKernels::kMostHeavyInstructions;
+}
+
+}  // namespace
+
+WrittenKernels::WrittenKernels(gpu::Device& device, TierTwoOptions options)
+    : device_(device), options_(std::move(options)), store_(options_.folder) {
+  if (options_.is_on) worker_ = std::thread([this] { work(); });
+}
+
+WrittenKernels::~WrittenKernels() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+  }
+  wanted_more_.notify_all();
+  if (worker_.joinable()) worker_.join();
+}
+
+WrittenKernels::Key WrittenKernels::key_of(const blobtree::Tape& tape, bool with_gradient) {
+  Key key{with_gradient ? 1u : 0u};
+  for (const std::uint32_t constant : KernelKind::of(tape).constants()) key.push_back(constant);
+  for (const blobtree::Instruction& i : tape.code) key.insert(key.end(), {i.code, i.leaf, i.operation});
+  return key;
+}
+
+const gpu::Pipeline* WrittenKernels::find(const ResidentScene& scene, bool with_gradient, std::uint64_t points) {
+  const blobtree::Tape& tape = scene.tape();
+  if (!options_.is_on || tape.code.size() > most_instructions(tape) || !is_writable(tape)) return nullptr;
+  Key key = key_of(tape, with_gradient);
+  const std::lock_guard lock(mutex_);
+  if (entries_.size() >= kMostStructures && !entries_.contains(key)) forget_cold();
+  Entry& entry = entries_[key];
+  entry.points += points;
+  if (!entry.is_hot && entry.points >= options_.hot_points && counts_.kernels + wanted_.size() < kMostKernels) {
+    entry.is_hot = true;
+    wanted_.push_back({std::move(key), scene.shared_from_this(), with_gradient});
+    wanted_more_.notify_one();
+  }
+  return entry.kernel.get();
+}
+
+void WrittenKernels::forget_cold() {
+  std::erase_if(entries_, [](const auto& e) { return !e.second.is_hot; });
+}
+
+void WrittenKernels::wait() {
+  std::unique_lock lock(mutex_);
+  made_one_.wait(lock, [&] { return wanted_.empty() && !is_at_work_; });
+}
+
+WrittenKernels::Counts WrittenKernels::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+void WrittenKernels::work() {
+  // Of this thread alone, on Linux.
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wanted_more_.wait(lock, [&] { return is_over_ || !wanted_.empty(); });
+    if (is_over_) return;
+    Wanted wanted = std::move(wanted_.front());
+    wanted_.pop_front();
+    is_at_work_ = true;
+    lock.unlock();
+    auto kernel = make(wanted);
+    wanted.scene.reset();
+    lock.lock();
+    // A structure that fails once does so always, and stays with the interpreter.
+    if (kernel.ok()) entries_[wanted.key].kernel = *std::move(kernel);
+    ++(kernel.ok() ? counts_.kernels : counts_.failures);
+    is_at_work_ = false;
+    made_one_.notify_all();
+  }
+}
+
+absl::StatusOr<std::vector<std::uint32_t>> WrittenKernels::spirv_of(const Wanted& wanted) {
+  const std::string definitions = write_definitions(KernelKind::of(wanted.scene->tape()), wanted.with_gradient);
+  const std::string tape = write_tape(wanted.scene->tape());
+  const std::string text = absl::StrCat(absl::Hex(shaders::compiler_version()), "\n", definitions, tape);
+  if (auto kept = store_.load(text)) {
+    const std::lock_guard lock(mutex_);
+    ++counts_.from_disk;
+    return *std::move(kept);
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(std::vector<std::uint32_t> spirv, shaders::compile_tape(definitions, tape));
+  store_.save(text, spirv);
+  return spirv;
+}
+
+absl::StatusOr<std::unique_ptr<const gpu::Pipeline>> WrittenKernels::make(const Wanted& wanted) {
+  ISOFIELD_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> spirv, spirv_of(wanted));
+  ISOFIELD_ASSIGN_OR_RETURN(std::unique_ptr<gpu::Pipeline> kernel, gpu::Pipeline::create(device_, spirv, {}));
+  // lavapipe compiles a pipeline when it first runs.
+  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+  const std::vector<float> origin(3);
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer point, session.upload(std::span(origin)));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer result, session.scratch(4 * sizeof(float)));
+  constexpr std::uint32_t kLast = 0;
+  ISOFIELD_RETURN_IF_ERROR(
+      session.commands().dispatch(*kernel, wanted.scene->bindings(point, {{6, &point}, {7, &result}}), kLast, 1));
+  ISOFIELD_RETURN_IF_ERROR(session.run());
+  return kernel;
+}
+
+}  // namespace isofield::engine

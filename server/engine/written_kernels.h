@@ -1,0 +1,91 @@
+// Tier two: kernels written for one structure of tapes each, made in the background for those that are asked often.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine/kernel_cache.h"
+#include "engine/resident_scene.h"
+#include "engine/spirv_store.h"
+#include "gpu/device.h"
+#include "gpu/pipeline.h"
+
+namespace isofield::engine {
+
+struct TierTwoOptions {
+  bool is_on = true;
+  // Points that are evaluated of a structure before it is given a kernel.
+  std::uint64_t hot_points = 1u << 20;
+  // Keeps what is compiled; empty: nowhere.
+  std::string folder;
+};
+
+// Two tapes have one structure where they are the same but for what their records hold: parameters are data, and scenes
+// share kernels. Thread-safe.
+class WrittenKernels {
+ public:
+  WrittenKernels(gpu::Device& device, TierTwoOptions options);
+  // Waits for the kernel that is being compiled.
+  ~WrittenKernels();
+
+  // The longest tapes that get a kernel: of sums and the like, and of operators that take longer than a leaf. Measured
+  // on lavapipe: beyond, sorting the points and pruning the tape gain more.
+  static constexpr std::size_t kMostInstructions = 64, kMostHeavyInstructions = 12;
+
+  // The kernel of shaders/tape_points.comp for the scene's whole tape, or null where there is none, not yet, or never.
+  // Never waits for one. `points`: how many will be evaluated now.
+  const gpu::Pipeline* find(const ResidentScene& scene, bool with_gradient, std::uint64_t points);
+
+  // Until every structure that is hot by now has its kernel, or is known to get none.
+  void wait();
+
+  struct Counts {
+    std::uint64_t kernels = 0;    // ready
+    std::uint64_t from_disk = 0;  // of these, those that were compiled by an earlier process
+    std::uint64_t failures = 0;
+  };
+  Counts counts() const;
+
+ private:
+  // The structure of a tape, with the quantity that is asked.
+  using Key = std::vector<std::uint32_t>;
+  struct Entry {
+    std::uint64_t points = 0;
+    bool is_hot = false;
+    std::unique_ptr<const gpu::Pipeline> kernel;
+  };
+  struct Wanted {
+    Key key;
+    SceneLease scene;  // one of the structure
+    bool with_gradient;
+  };
+
+  static Key key_of(const blobtree::Tape& tape, bool with_gradient);
+  void work();
+  absl::StatusOr<std::unique_ptr<const gpu::Pipeline>> make(const Wanted& wanted);
+  absl::StatusOr<std::vector<std::uint32_t>> spirv_of(const Wanted& wanted);
+  void forget_cold();
+
+  gpu::Device& device_;
+  const TierTwoOptions options_;
+  const SpirvStore store_;
+  mutable std::mutex mutex_;
+  std::condition_variable wanted_more_, made_one_;
+  std::map<Key, Entry> entries_;
+  std::deque<Wanted> wanted_;
+  bool is_at_work_ = false, is_over_ = false;
+  Counts counts_;
+  std::thread worker_;  // last: it uses the others
+};
+
+}  // namespace isofield::engine

@@ -1,0 +1,56 @@
+// What an instruction's operator makes of its operands: one for the interpreter and for tapes that are written out.
+#ifndef INSTRUCTION_GLSL
+#define INSTRUCTION_GLSL
+
+#include "operators.glsl"
+
+// Of the accumulator and a right operand. Operators of many and OPERATOR_PUSH give the latter.
+Field apply_operator(Field acc, Field v, uint op, uint mode, uint record) {
+  // The operands in their order, and as the form of the operator wants them.
+  Field r = v, a = acc, b = v, first = acc, second = v;
+  if (has_modes()) {
+    bool is_exchanged = (mode & MODE_EXCHANGED) != 0u;
+    first = select_field(acc, v, is_exchanged);
+    second = select_field(v, acc, is_exchanged);
+    a = select_field(first, complement(first, mode), (mode & 3u) != FORM_UNION);
+    b = select_field(second, complement(second, mode), (mode & 3u) == FORM_INTERSECTION);
+  }
+  if (op != OPERATOR_PUSH) {
+    Angle angle = no_angle();
+    if (may_follow_angle()) angle = angle_between(a, b);
+    r = unite(a, b, op, record, angle);
+  }
+  IF_OPERATOR(op, OPERATOR_GRADIENT) r = blend_by_gradient(a, b, operation_at(record), SMOOTH_SILHOUETTE, false);
+  IF_OPERATOR(op, OPERATOR_GRADIENT_TABLE) {
+    uint silhouette = silhouette_half(floatBitsToUint(operation_at(record).y), a.f, b.f);
+    r = blend_by_gradient(a, b, operation_at(record), silhouette, false);
+  }
+  IF_OPERATOR(op, OPERATOR_GRADIENT_VOLUME) {
+    r = blend_by_gradient(a, b, operation_at(record), floatBitsToUint(operation_at(record).y), true);
+  }
+  if (has_modes()) r = formed(r, first, second, mode);
+  IF_OPERATOR(op, OPERATOR_LINEAR) r = linear(acc, operation_at(record).x, operation_at(record).y);
+  IF_OPERATOR(op, OPERATOR_SOFTEN) r = softened(acc, operation_at(record).x);
+  return r;
+}
+
+bool is_of_many(uint op) {
+  IF_OPERATOR(op, OPERATOR_BTK) return true;
+  IF_OPERATOR(op, OPERATOR_SUPERELLIPTIC) return true;
+  return false;
+}
+
+// Of operands as operators.glsl has them: x[0] is the last.
+Field apply_to_many(Field x[MAX_OPERANDS], uint op, uint mask, uint mode, uint record) {
+  uint form = mode & 3u;
+  if (has_modes() && form != FORM_UNION) turn_operands(x, mask, form);
+  Angle angle = no_angle();
+  if (may_follow_angle()) angle = angle_between(x[0], x[1]);
+  Field r = x[0];
+  IF_OPERATOR(op, OPERATOR_BTK) r = blend_btk(x, mask, record, angle);
+  IF_OPERATOR(op, OPERATOR_SUPERELLIPTIC) r = blend_superelliptic(x, mask, record, angle);
+  if (has_modes()) r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
+  return r;
+}
+
+#endif

@@ -1,0 +1,232 @@
+// Tier two: written kernels against the interpreter, and when there are any.
+#include <absl/strings/str_cat.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "blobtree/blend_edit.h"
+#include "blobtree/parameter_edit.h"
+#include "engine/field_evaluator.h"
+#include "engine/tape_writer.h"
+#include "engine/written_kernels.h"
+#include "gpu/gpu_environment.h"
+#include "gpu/operator_cases.h"
+#include "support/random_scene.h"
+#include "support/scene_text.h"
+
+namespace isofield::gpu_test {
+namespace {
+
+using engine::Quantity;
+using engine::WrittenKernels;
+
+std::vector<float> random_points(std::uint64_t seed, int count) {
+  test_support::Random random(seed);
+  std::vector<float> xyz;
+  for (int i = 0; i < 3 * count; ++i) xyz.push_back(static_cast<float>(random.number(-2, 2)));
+  return xyz;
+}
+
+std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<float>& xyz, Quantity quantity,
+                            WrittenKernels* written) {
+  engine::FieldEvaluator fields(device(), kernels(), written);
+  std::vector<float> out(xyz.size() / 3 * components(quantity), -1);
+  const absl::Status status = fields.evaluate(scene, xyz, quantity, out);
+  EXPECT_TRUE(status.ok()) << status;
+  return out;
+}
+
+// Makes the scene's kernel; false where it gets none.
+bool make_hot(WrittenKernels& written, const engine::ResidentScene& scene, bool with_gradient = true) {
+  (void)written.find(scene, with_gradient, 1u << 30);
+  written.wait();
+  return written.find(scene, with_gradient, 0) != nullptr;
+}
+
+void expect_near(const std::vector<float>& written, const std::vector<float>& interpreted, std::size_t components,
+                 const std::string& what) {
+  ASSERT_EQ(written.size(), interpreted.size());
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    same += written[i] == interpreted[i] ? 1 : 0;
+    // Within rounding of the point's whole gradient: its components cancel.
+    const float* const whole = &interpreted[i / components * components];
+    float scale = 1;
+    for (std::size_t c = 0; c < components; ++c) scale = std::max(scale, std::abs(whole[c]));
+    ASSERT_NEAR(written[i], interpreted[i], 2e-6f * scale) << what << ", number " << i;
+  }
+  EXPECT_GE(same, written.size() * 9 / 10) << what;
+}
+
+v1::Scene two_spheres(double radius, const std::string& opening = "CAMEL") {
+  return test_support::scene_of_nodes(absl::StrCat(R"([{"name": "a", "sphere": {"radius": )", radius,
+                                                   R"(, "range": 0.6}},
+    {"name": "b", "sphere": {"center": [0.7, 0, 0], "radius": )",
+                                                   radius, R"(, "range": 0.5}},
+    {"name": "c", "gradient": {"children": ["a", "b"], "opening": {"preset": ")",
+                                                   opening, R"("}}}])"));
+}
+
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::path(testing::TempDir()) / absl::StrCat("isofield_kernels_", getpid())) {
+    std::filesystem::remove_all(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::filesystem::path only_file() const {
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path_), {}), 1);
+    return std::filesystem::directory_iterator(path_)->path();
+  }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+TEST(WrittenKernels, AgreeWithTheInterpreterOnRandomScenes) {
+  WrittenKernels written(device(), {});
+  // Every structure is compiled, which is what takes the time.
+  const std::uint64_t seeds = std::getenv("ISOFIELD_TESTS_FEW_SCENES") ? 1 : 4;
+  std::uint64_t made = 0;
+  for (const int nodes : {1, 3, 5, 8, 12}) {
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      const engine::SceneLease scene = resident(test_support::random_scene(7000 * nodes + seed, {.nodes = nodes}));
+      const std::vector<float> xyz = random_points(seed, 500);
+      for (const Quantity quantity : {Quantity::kValue, Quantity::kValueAndGradient}) {
+        if (!make_hot(written, *scene, quantity == Quantity::kValueAndGradient)) continue;
+        ++made;
+        expect_near(evaluate(*scene, xyz, quantity, &written), evaluate(*scene, xyz, quantity, nullptr),
+                    components(quantity), absl::StrCat(nodes, " nodes, seed ", seed));
+      }
+    }
+  }
+  EXPECT_GE(made, 5 * seeds);
+  EXPECT_EQ(written.counts().failures, 0u);
+}
+
+TEST(WrittenKernels, AgreeWithTheInterpreterOnEveryOperator) {
+  WrittenKernels written(device(), {});
+  const std::vector<float> xyz = random_points(2, 1000);
+  for (const Case& c : cases()) {
+    const bool is_signed = operators::law_of(c.op.kind) == operators::Law::kSigned;
+    std::vector<std::string> names;
+    std::string nodes = "[";
+    for (std::size_t i = 0; i < c.operands; ++i) {
+      names.push_back(absl::StrCat("s", i));
+      absl::StrAppend(&nodes, R"({"name": ")", names.back(), R"(", "sphere": {"center": [)",
+                      0.4 * static_cast<double>(i), R"(, 0, 0.1], "radius": 0.5, )",
+                      is_signed ? R"("law": "SIGNED"}},)" : R"("range": 0.6}},)");
+    }
+    const engine::SceneLease scene =
+        resident(test_support::scene_of_nodes(absl::StrCat(nodes, operator_node(c.op, names), "]")));
+    ASSERT_TRUE(make_hot(written, *scene)) << c.name;
+    expect_near(evaluate(*scene, xyz, Quantity::kValueAndGradient, &written),
+                evaluate(*scene, xyz, Quantity::kValueAndGradient, nullptr), 4, c.name);
+  }
+}
+
+TEST(WrittenKernels, AreOfStructuresThatManyPointsAreAskedOf) {
+  WrittenKernels written(device(), {.hot_points = 1000});
+  const engine::SceneLease scene = resident(two_spheres(0.5));
+  EXPECT_EQ(written.find(*scene, true, 999), nullptr);
+  written.wait();
+  EXPECT_EQ(written.find(*scene, true, 0), nullptr);
+  EXPECT_EQ(written.counts().kernels, 0u);
+  (void)written.find(*scene, true, 1);
+  written.wait();
+  EXPECT_NE(written.find(*scene, true, 0), nullptr);
+  // The other quantity is another kernel.
+  EXPECT_EQ(written.find(*scene, false, 0), nullptr);
+}
+
+TEST(WrittenKernels, AreSharedByScenesWithOtherParameters) {
+  WrittenKernels written(device(), {});
+  const engine::SceneLease one = resident(two_spheres(0.5)), other = resident(two_spheres(0.3, "ORGANIC"));
+  ASSERT_TRUE(make_hot(written, *one));
+  EXPECT_EQ(written.find(*other, true, 0), written.find(*one, true, 0));
+  const std::vector<float> xyz = random_points(4, 500);
+  const std::vector<float> values = evaluate(*other, xyz, Quantity::kValueAndGradient, &written);
+  expect_near(values, evaluate(*other, xyz, Quantity::kValueAndGradient, nullptr), 4, "other parameters");
+  EXPECT_NE(values, evaluate(*one, xyz, Quantity::kValueAndGradient, &written));
+}
+
+TEST(WrittenKernels, OutliveEditsOfParameters) {
+  WrittenKernels written(device(), {});
+  v1::Scene scene = two_spheres(0.5);
+  const engine::SceneLease before = resident(scene);
+  ASSERT_TRUE(make_hot(written, *before));
+  const auto nodes = blobtree::apply_edits({{"c", "opening.theta1", {20}}}, scene);
+  ASSERT_TRUE(nodes.ok()) << nodes.status();
+  auto tape = blobtree::edit_blends(before->tape(), scene, *nodes, {});
+  ASSERT_TRUE(tape.ok() && tape->has_value()) << tape.status();
+  const auto after = before->with_operations(device(), **std::move(tape));
+  ASSERT_TRUE(after.ok()) << after.status();
+  EXPECT_EQ(written.find(**after, true, 0), written.find(*before, true, 0));
+  const std::vector<float> xyz = random_points(6, 500);
+  expect_near(evaluate(**after, xyz, Quantity::kValueAndGradient, &written),
+              evaluate(**after, xyz, Quantity::kValueAndGradient, nullptr), 4, "edited");
+}
+
+// More than one submission, and a last one that is no whole number of workgroups.
+TEST(WrittenKernels, TakeLargeBatches) {
+  WrittenKernels written(device(), {});
+  const engine::SceneLease scene = resident(two_spheres(0.5));
+  ASSERT_TRUE(make_hot(written, *scene));
+  const std::vector<float> xyz = random_points(8, 100'003);
+  expect_near(evaluate(*scene, xyz, Quantity::kValueAndGradient, &written),
+              evaluate(*scene, xyz, Quantity::kValueAndGradient, nullptr), 4, "large");
+  engine::FieldEvaluator fields(device(), kernels(), &written);
+  std::vector<float> out(4 * 100'003);
+  int asked = 0;
+  const absl::Status cut = fields.evaluate(*scene, xyz, Quantity::kValueAndGradient, out, [&] { return ++asked == 3; });
+  EXPECT_EQ(cut.code(), absl::StatusCode::kCancelled);
+}
+
+TEST(WrittenKernels, NeverOfLongTapesNorWhereTheyAreOff) {
+  WrittenKernels written(device(), {}), off(device(), {.is_on = false, .hot_points = 0});
+  EXPECT_FALSE(make_hot(off, *resident(two_spheres(0.5))));
+  EXPECT_FALSE(make_hot(written, *resident(test_support::random_scene(3, {.nodes = 300}))));
+  EXPECT_EQ(written.counts().kernels + written.counts().failures, 0u);
+}
+
+TEST(WrittenKernels, AreKeptOnDisk) {
+  const Folder folder;
+  const engine::SceneLease scene = resident(two_spheres(0.5));
+  const std::vector<float> xyz = random_points(5, 200);
+  const std::vector<float> expected = evaluate(*scene, xyz, Quantity::kValueAndGradient, nullptr);
+  const auto from_disk = [&] {
+    WrittenKernels written(device(), {.folder = folder.path()});
+    EXPECT_TRUE(make_hot(written, *scene));
+    expect_near(evaluate(*scene, xyz, Quantity::kValueAndGradient, &written), expected, 4, "kept");
+    return written.counts().from_disk;
+  };
+  EXPECT_EQ(from_disk(), 0u);
+  EXPECT_EQ(from_disk(), 1u);
+  // Cut short, empty, a bit changed: compiled again, and written anew.
+  const std::filesystem::path file = folder.only_file();
+  const auto size = std::filesystem::file_size(file);
+  for (const std::uintmax_t bytes : {size / 2, std::uintmax_t{5}, std::uintmax_t{0}}) {
+    std::filesystem::resize_file(file, bytes);
+    EXPECT_EQ(from_disk(), 0u) << bytes;
+    EXPECT_EQ(from_disk(), 1u) << bytes;
+  }
+  for (const std::uintmax_t at : {std::uintmax_t{3}, std::uintmax_t{40}, size - 7}) {
+    {
+      std::fstream changed(file, std::ios::binary | std::ios::in | std::ios::out);
+      changed.seekg(static_cast<std::streamoff>(at));
+      const char byte = static_cast<char>(changed.get() ^ 1);
+      changed.seekp(static_cast<std::streamoff>(at));
+      changed.put(byte);
+    }
+    EXPECT_EQ(from_disk(), 0u) << at;
+    EXPECT_EQ(from_disk(), 1u) << at;
+  }
+}
+
+}  // namespace
+}  // namespace isofield::gpu_test
