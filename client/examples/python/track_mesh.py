@@ -109,7 +109,7 @@ def main():
             came, _, summary = follow(answers, mesh)
             print(f"{came} bricks of {summary.triangles} triangles in {summary.seconds:.3f} s")
             for i in range(arguments.edits):
-                x = centers[0][0] * np.cos(2 * np.pi * (i + 1) / arguments.edits)
+                x = centers[0][0] + 0.2 * np.sin(2 * np.pi * (i + 1) / arguments.edits)
                 move = scene_service_pb2.ParameterEdit(node="#0", field="center.x", values=[x])
                 edit = scene_service_pb2.EditParametersRequest(edits=[move])
                 requests.put(mesh_service_pb2.TrackMeshRequest(edit=edit))
