@@ -34,6 +34,42 @@ absl::Status check(const Mesh& mesh) {
   return absl::OkStatus();
 }
 
+absl::Status check(const MeshedBricks& mesh) {
+  const auto& [bricks, summary] = mesh;
+  if (bricks.vertex_count() == summary.vertices() && bricks.triangle_count() == summary.triangles()) {
+    return absl::OkStatus();
+  }
+  return absl::InternalError(absl::StrCat("the server announced ", summary.vertices(), " vertices and ",
+                                          summary.triangles(), " triangles, but sent bricks of ", bricks.vertex_count(),
+                                          " and ", bricks.triangle_count()));
+}
+
+// Reads a stream of progress, a summary and messages of another kind, which go to `take`, to its end.
+template <class Response, class Take>
+absl::Status read_mesh(grpc::ClientContext& context, grpc::ClientReader<Response>& stream,
+                       const Client::Progress& progress, v1::MeshSummary& summary, const std::string& address,
+                       const Take& take) {
+  Response response;
+  absl::Status status;
+  while (status.ok() && stream.Read(&response)) {
+    switch (response.message_case()) {
+      case Response::kProgress:
+        if (progress && !progress(response.progress().fraction())) status = absl::CancelledError("mesh cancelled");
+        break;
+      case Response::kSummary:
+        summary = response.summary();
+        break;
+      case Response::MESSAGE_NOT_SET:
+        break;
+      default:
+        status = take(response);
+    }
+  }
+  if (!status.ok()) context.TryCancel();
+  const grpc::Status finished = stream.Finish();
+  return status.ok() ? from_grpc(finished, address) : status;
+}
+
 }  // namespace
 
 absl::StatusOr<Mesh> Client::mesh(const v1::MeshRequest& request, const Progress& progress) {
@@ -43,27 +79,25 @@ absl::StatusOr<Mesh> Client::mesh(const v1::MeshRequest& request, const Progress
     grpc::ClientContext context;
     Impl::set_timeout(context, impl_->options.stream_timeout);
     const auto stream = impl_->meshes->Mesh(&context, request);
-    v1::MeshResponse response;
-    absl::Status status;
-    while (status.ok() && stream->Read(&response)) {
-      switch (response.message_case()) {
-        case v1::MeshResponse::kProgress:
-          if (progress && !progress(response.progress().fraction())) status = absl::CancelledError("mesh cancelled");
-          break;
-        case v1::MeshResponse::kSummary:
-          mesh.summary = response.summary();
-          break;
-        case v1::MeshResponse::kPart:
-          status = append_part(response.part(), mesh);
-          break;
-        case v1::MeshResponse::MESSAGE_NOT_SET:
-          break;
-      }
-    }
-    if (!status.ok()) context.TryCancel();
-    const grpc::Status finished = stream->Finish();
-    if (!status.ok()) return status;
-    return finished.ok() ? check(mesh) : from_grpc(finished, impl_->address);
+    const auto status = read_mesh(context, *stream, progress, mesh.summary, impl_->address,
+                                  [&](const v1::MeshResponse& response) { return append_part(response.part(), mesh); });
+    return status.ok() ? check(mesh) : status;
+  };
+  if (auto status = impl_->retry(attempt); !status.ok()) return status;
+  return mesh;
+}
+
+absl::StatusOr<MeshedBricks> Client::mesh_bricks(const v1::MeshBricksRequest& request, const Progress& progress) {
+  MeshedBricks mesh;
+  const auto attempt = [&]() -> absl::Status {
+    mesh = MeshedBricks();
+    grpc::ClientContext context;
+    Impl::set_timeout(context, impl_->options.stream_timeout);
+    const auto stream = impl_->meshes->GetMeshBricks(&context, request);
+    const auto status =
+        read_mesh(context, *stream, progress, mesh.summary, impl_->address,
+                  [&](const v1::MeshBricksResponse& response) { return mesh.bricks.apply(response.bricks()); });
+    return status.ok() ? check(mesh) : status;
   };
   if (auto status = impl_->retry(attempt); !status.ok()) return status;
   return mesh;

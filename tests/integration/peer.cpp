@@ -166,7 +166,7 @@ grpc::Status Peer::mesh(const v1::MeshRequest& request, ReceivedMesh* mesh) {
   v1::MeshResponse response;
   bool has_summary = false;
   while (stream->Read(&response)) {
-    EXPECT_EQ(response.has_part(), has_summary) << "parts follow the summary, progress does not";
+    EXPECT_FALSE(has_summary) << "the summary comes last";
     if (response.has_progress()) mesh->progress.push_back(response.progress().fraction());
     if (response.has_summary()) mesh->summary = response.summary();
     has_summary = has_summary || response.has_summary();

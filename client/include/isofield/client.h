@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "isofield/mesh.h"
+#include "isofield/tracked_mesh.h"
 #include "isofield/v1/info_service.pb.h"
 #include "isofield/v1/mesh_service.pb.h"
 #include "isofield/v1/operator_service.pb.h"
@@ -35,19 +37,6 @@ struct ClientOptions {
   // server offers that: isofieldd --shared-memory, on a unix socket, run by the same user. Elsewhere it changes
   // nothing.
   bool shared_memory = false;
-};
-
-// A triangle mesh in model units; triangles are counter-clockwise seen from outside.
-struct Mesh {
-  // [n, 3] each: x, y, z; normals are unit vectors, empty where the request omitted them.
-  std::vector<float> positions;
-  std::vector<float> normals;
-  // [m, 3]: vertex numbers.
-  std::vector<std::uint32_t> triangles;
-  v1::MeshSummary summary;
-
-  std::size_t vertex_count() const { return positions.size() / 3; }
-  std::size_t triangle_count() const { return triangles.size() / 3; }
 };
 
 // Samples of a field on a grid.
@@ -181,6 +170,11 @@ class Client {
   // Called with the fraction done, within [0, 1], on the caller's thread; false cancels the mesh.
   using Progress = std::function<bool(double fraction)>;
   absl::StatusOr<Mesh> mesh(const v1::MeshRequest& request, const Progress& progress = {});
+  // That mesh, or a part of it, by bricks: parts, of several servers if need be, join to the bytes of the whole.
+  absl::StatusOr<MeshedBricks> mesh_bricks(const v1::MeshBricksRequest& request, const Progress& progress = {});
+  // Keeps that mesh up to date while its scene, which the request names, is edited. Returns with the whole mesh.
+  // ClientOptions::stream_timeout does not limit it: see TrackedMesh::cancel.
+  absl::StatusOr<TrackedMesh> track_mesh(const v1::MeshRequest& request);
   // Area, volume, centroid and bounds of that mesh, which stays with the server. Takes as long as a stream may.
   absl::StatusOr<v1::MeasureResponse> measure(const v1::MeshRequest& request);
 
