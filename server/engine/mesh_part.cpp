@@ -30,7 +30,7 @@ constexpr std::uint32_t kEdgeCorners = blobtree::kBrickCells + 1;
 constexpr std::uint32_t kCorners = kEdgeCorners * kEdgeCorners * kEdgeCorners;
 // Bricks of one submission, and instructions of their tapes: what a cancelled request still waits for, and others with
 // it; some 80 ms of gradient blends on two cores.
-constexpr std::uint32_t kSlab = 4096;
+constexpr std::uint32_t kSlab = 16'384;
 constexpr std::uint64_t kSlabInstructions = 1u << 16;
 using Constants = MeshConstants;
 using Pair = MeshStart;
