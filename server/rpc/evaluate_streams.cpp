@@ -56,7 +56,7 @@ class EvaluateStreams::Stream {
           most,
           " streams are open, as many as are admitted (three quarters of --max-threads): close one, or try again")));
     }
-    go_on(std::move(lock));
+    leave(std::move(lock));
   }
 
   void on_read(bool is_ok) {
@@ -203,7 +203,8 @@ class EvaluateStreams::Stream {
 
   std::mutex mutex_;
   std::deque<std::unique_ptr<Work>> work_;  // in order
-  int parts_ = 1;                           // under way: operations, evaluations, and the call, until it has ended
+  // Under way: operations, evaluations, and of the call its coming and its end, which other threads may see at once.
+  int parts_ = 2;
   bool is_open_ = false, is_reading_ = false, is_writing_ = false, is_input_over_ = false, is_finished_ = false;
   absl::Status input_status_;
   std::optional<grpc::Status> outcome_;
