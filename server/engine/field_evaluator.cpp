@@ -81,8 +81,7 @@ struct GridConstants {
 }  // namespace
 
 absl::Status FieldEvaluator::prepare(const ResidentScene& scene, Quantity quantity) {
-  return kernels_.get(points_shader(quantity), TapeWindows(device_, scene, {}).kind(KernelKind::of(scene.tape()), 0))
-      .status();
+  return kernels_.get(points_shader(quantity), TapeWindows::windowed(device_, KernelKind::of(scene.tape()))).status();
 }
 
 absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,

@@ -47,12 +47,6 @@ KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
   return kind;
 }
 
-KernelKind KernelKind::windowed(bool is_windowed, bool shares_loads) const {
-  KernelKind kind = *this;
-  if (is_windowed) kind.uniform_set = shares_loads ? 15 : 7;
-  return kind;
-}
-
 absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
   const Key key{reinterpret_cast<std::uintptr_t>(shader.data()),
                 kind.operand_set,

@@ -29,8 +29,6 @@ struct KernelKind {
   static KernelKind of(const blobtree::Tape& tape);
   // For those of them that are one leaf.
   static KernelKind single_leaf(const blobtree::Tape& tape);
-  // Of tapes in windows, with what they name, or of those that are not. `shares_loads`: shaders/lib/parameters.glsl.
-  KernelKind windowed(bool is_windowed, bool shares_loads) const;
 
   // As specialisation constants 0, 1, 2, ...
   std::array<std::uint32_t, 7> constants() const {

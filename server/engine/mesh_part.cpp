@@ -65,12 +65,14 @@ class Run {
     ISOFIELD_RETURN_IF_ERROR(upload_bricks());
     ISOFIELD_RETURN_IF_ERROR(sample());
     ISOFIELD_RETURN_IF_ERROR(connect());
-    if (starts_[owned_][0] == 0 && starts_[owned_][1] == 0) return MeshCells{};
+    MeshCells cells{.cells = std::uint64_t{owned_} * kCells};
+    if (starts_[owned_][0] == 0 && starts_[owned_][1] == 0) return cells;
     ISOFIELD_RETURN_IF_ERROR(list_elements());
     ISOFIELD_RETURN_IF_ERROR(find_crossings());
     ISOFIELD_RETURN_IF_ERROR(place_vertices());
     ISOFIELD_RETURN_IF_ERROR(settle_vertices());
-    return make_triangles();
+    ISOFIELD_RETURN_IF_ERROR(make_triangles(cells));
+    return cells;
   }
 
  private:
@@ -327,7 +329,7 @@ class Run {
                       {{4, &bricks_}, {6, &starts}, {7, &positions}, {8, &normals}});
   }
 
-  absl::StatusOr<MeshCells> make_triangles() {
+  absl::Status make_triangles(MeshCells& cells) {
     const QuadCutter::Check checked = [this](double fraction) { return check(fraction); };
     QuadCutter cutter(device_, kernels_, constants_,
                       {{4, &bricks_},
@@ -345,7 +347,6 @@ class Run {
     for (std::size_t s = 0; s < slabs_.size() && cutter.fans() > 0; ++s) {
       ISOFIELD_RETURN_IF_ERROR(find_crossings(slabs_[s], is_unknown));
     }
-    MeshCells cells;
     std::vector<float> centres, centre_normals;
     ISOFIELD_ASSIGN_OR_RETURN(const Buffer centre_buffer, cutter.make(cells.corners, centres));
     if (cutter.fans() > 0 && request_.with_normals) {
@@ -353,7 +354,6 @@ class Run {
     }
     ISOFIELD_RETURN_IF_ERROR(check(1));
     // Brick by brick: the vertices of its cells, then those amid its fans.
-    cells.cells = std::uint64_t{owned_} * kCells;
     const auto append = [](std::vector<float>& to, const std::vector<float>& from, std::uint32_t begin,
                            std::uint32_t end) {
       if (!from.empty())
@@ -374,7 +374,7 @@ class Run {
       append(cells.normals, vertex_normals_, begin[0], end[0]);
       append(cells.normals, centre_normals, fan, fan_end);
     }
-    return cells;
+    return absl::OkStatus();
   }
 
   absl::StatusOr<std::vector<float>> find_fan_normals(const QuadCutter& cutter, const Buffer& centres) {

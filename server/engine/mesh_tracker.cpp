@@ -1,5 +1,7 @@
 #include "engine/mesh_tracker.h"
 
+#include <absl/container/flat_hash_set.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -224,11 +226,11 @@ absl::StatusOr<MeshTracker::Update> MeshTracker::update_part(const ResidentScene
       return absl::OkStatus();
     }));
     bool moves_vertices = false;
-    absl::flat_hash_map<Key, bool> present;
+    absl::flat_hash_set<Key> present;
     std::size_t vertex = 0;
     for (const MeshBrick& b : made.bricks) {
       const Key key{b.x, b.y, b.z};
-      present[key] = true;
+      present.insert(key);
       if (!holds(inner, key)) {
         std::string vertices;
         append(vertices, made.positions, 3 * vertex, 3 * std::size_t{b.vertices});

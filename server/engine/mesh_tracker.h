@@ -45,7 +45,6 @@ class MeshTracker {
     bool operator==(const Content&) const = default;
   };
   using Key = std::array<std::uint32_t, 3>;
-  struct Difference;
 
   absl::StatusOr<Update> update_whole(const ResidentScene& scene, const MeshCallbacks& callbacks);
   absl::StatusOr<Update> update_part(const ResidentScene& scene, const blobtree::BrickBox& changed,

@@ -8,14 +8,20 @@ namespace {
 // shaders/lib/parameters.glsl.
 constexpr std::uint32_t kLeaves = gpu::kFirstUniformBinding, kOperations = kLeaves + 1, kTape = kLeaves + 2;
 
+// Of UNIFORM_SET: all that a window has, and whether invocations share loads.
+constexpr std::uint32_t kUniformAll = 7, kSharedLoads = 8;
+
 static_assert(blobtree::kWindowSize * sizeof(blobtree::Float4) == gpu::kUniformBytes);
 static_assert(blobtree::kWindowAlignment * sizeof(blobtree::Float4) == gpu::kUniformAlignment);
 
 }  // namespace
 
-bool TapeWindows::can_share_loads(const gpu::Device& device) {
+KernelKind TapeWindows::windowed(const gpu::Device& device, const KernelKind& kind) {
   const gpu::DeviceDescription& d = device.description();
-  return d.type == "cpu" && d.subgroup_size == 8;
+  const bool shares_loads = d.type == "cpu" && d.subgroup_size == 8;
+  KernelKind in_windows = kind;
+  in_windows.uniform_set = kUniformAll | (shares_loads ? kSharedLoads : 0u);
+  return in_windows;
 }
 
 absl::Status TapeWindows::upload(Session& session) {

@@ -18,10 +18,7 @@ class TapeWindows {
  public:
   // `scene` must outlive it. `code` holds tapes pruned from the scene's.
   TapeWindows(const gpu::Device& device, const ResidentScene& scene, std::vector<blobtree::Instruction> code)
-      : scene_(&scene),
-        shares_loads_(can_share_loads(device)),
-        code_(std::move(code)),
-        packer_(scene.tape(), scene.parameters(), code_) {}
+      : device_(&device), scene_(&scene), code_(std::move(code)), packer_(scene.tape(), scene.parameters(), code_) {}
   TapeWindows(const TapeWindows&) = delete;
   TapeWindows& operator=(const TapeWindows&) = delete;
 
@@ -36,17 +33,18 @@ class TapeWindows {
 
   // Of the tapes in one window, or in none: the kernel that runs them, and its bindings.
   KernelKind kind(const KernelKind& of, std::uint32_t window) const {
-    return of.windowed(window != kNoWindow, shares_loads_);
+    return window == kNoWindow ? of : windowed(*device_, of);
   }
   gpu::Commands::Bindings bindings(std::uint32_t window, const gpu::Commands::Bindings& own) const;
+
+  // The kernel of tapes in windows, whichever.
+  static KernelKind windowed(const gpu::Device& device, const KernelKind& kind);
 
   static constexpr std::uint32_t kNoWindow = blobtree::WindowPacker::kNoWindow;
 
  private:
-  static bool can_share_loads(const gpu::Device& device);
-
+  const gpu::Device* device_;
   const ResidentScene* scene_;
-  bool shares_loads_;
   std::vector<blobtree::Instruction> code_;
   blobtree::WindowPacker packer_;
   bool has_long_tapes_ = false;

@@ -17,14 +17,12 @@ namespace isofield::rpc {
 absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
                                                       const Limits& limits);
 
-// Calls write(MeshBricks) with `cells` in pieces that messages hold, at least one; false from it ends that.
-template <class Write>
-bool write_bricks(const engine::MeshCells& cells, const Write& write);
-
 // Bricks `first` and on: as many as a message holds. `vertex` and `triangle` are those before them, and move on.
 std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,
                         v1::MeshBricks& message);
 
+// Calls write(MeshBricks) with `cells` in pieces that messages hold, none where there is nothing; false from it ends
+// that.
 template <class Write>
 bool write_bricks(const engine::MeshCells& cells, const Write& write) {
   std::size_t vertex = 0, triangle = 0;

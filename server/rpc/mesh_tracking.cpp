@@ -26,10 +26,10 @@ absl::Status MeshTracking::begin(const v1::MeshRequest& request) {
     return absl::InvalidArgumentError("begin.scene: expected the name of a scene that the server keeps");
   }
   scene_ = request.scene();
-  ISOFIELD_ASSIGN_OR_RETURN(LeasedScene leased, scenes_.lease(scene_));
+  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(scene_));
   ISOFIELD_ASSIGN_OR_RETURN(request_, read_mesh_request(request, leased.scene->tape(), limits_));
   tracker_.emplace(engine_.mesher(), request_);
-  return answer(std::move(leased.scene), leased.version);
+  return answer(leased.scene, leased.version);
 }
 
 absl::Status MeshTracking::follow(const v1::TrackMeshRequest& request) {
@@ -40,25 +40,23 @@ absl::Status MeshTracking::follow(const v1::TrackMeshRequest& request) {
         return absl::InvalidArgumentError(absl::StrCat("edit.name = '", edit.name(), "': expected none, or the name '",
                                                        scene_.name(), "' of the scene that this stream follows"));
       }
-      ISOFIELD_ASSIGN_OR_RETURN(StoredScene stored,
+      ISOFIELD_ASSIGN_OR_RETURN(const StoredScene stored,
                                 editor_.edit(scene_.name(), read_edits(edit.edits()), edit.expected_version()));
-      return answer(std::move(stored.lease), stored.entry.version);
+      return answer(stored.lease, stored.entry.version);
     }
     case v1::TrackMeshRequest::kRefresh: {
-      ISOFIELD_ASSIGN_OR_RETURN(LeasedScene leased, scenes_.lease(scene_));
-      return answer(std::move(leased.scene), leased.version);
+      ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(scene_));
+      return answer(leased.scene, leased.version);
     }
     default:
       return absl::InvalidArgumentError("expected edit or refresh: begin is the stream's first message alone");
   }
 }
 
-absl::Status MeshTracking::answer(engine::SceneLease scene, std::uint64_t scene_version) {
+absl::Status MeshTracking::answer(const engine::SceneLease& scene, std::uint64_t scene_version) {
   MeshTotals totals;
-  const engine::ResidentScene& resident = *scene;
-  const engine::SceneLease held = scene;
   ISOFIELD_ASSIGN_OR_RETURN(const engine::MeshTracker::Update update,
-                            tracker_->update(std::move(scene), {.cancelled = [&] { return context_.IsCancelled(); }}));
+                            tracker_->update(scene, {.cancelled = [&] { return context_.IsCancelled(); }}));
   ++version_;
   // The last message is held back until it is known to be that.
   v1::MeshUpdate next;
@@ -85,7 +83,7 @@ absl::Status MeshTracking::answer(engine::SceneLease scene, std::uint64_t scene_
   totals.triangles = tracker_->triangles();
   next.set_scene_version(scene_version);
   next.set_is_last(true);
-  fill_summary(totals, request_, resident, scene_version, *next.mutable_summary());
+  fill_summary(totals, request_, *scene, scene_version, *next.mutable_summary());
   return write(std::move(next));
 }
 

@@ -59,11 +59,6 @@ void expect_same(const BrickMesh& bricks, const ReceivedMesh& mesh) {
 
 class MeshBricks : public testing::Test {
  protected:
-  ReceivedMesh mesh(const v1::MeshRequest& request) {
-    ReceivedMesh received;
-    EXPECT_TRUE(ok(peer_.mesh(request, &received)));
-    return received;
-  }
   // What a stream of these messages ends with.
   grpc::Status track(const std::vector<v1::TrackMeshRequest>& requests) {
     grpc::ClientContext context;
@@ -97,7 +92,7 @@ TEST_F(MeshBricks, WholeAndInEightPartsAreTheMesh) {
       request.mutable_mesh()->add_bounds_max(1.5);
     }
     request.mutable_mesh()->set_omit_normals(seed == 8);
-    const ReceivedMesh expected = mesh(request.mesh());
+    const ReceivedMesh expected = peer_.mesh(request.mesh());
     ASSERT_FALSE(expected.triangles.empty()) << "seed " << seed;
     const auto whole = client_.mesh_bricks(request);
     ASSERT_TRUE(whole.ok()) << whole.status();
@@ -157,7 +152,7 @@ TEST_F(MeshBricks, ATrackedMeshFollowsEdits) {
   EXPECT_TRUE(tracked->changes().is_whole);
   EXPECT_EQ(tracked->changes().bricks_put, tracked->bricks().brick_count());
   EXPECT_EQ(tracked->changes().bricks_removed, 0u);
-  expect_same(tracked->bricks(), mesh(request));
+  expect_same(tracked->bricks(), peer_.mesh(request));
 
   const std::vector<std::vector<v1::ParameterEdit>> steps{
       {edit_of("#3", "center", {0.1, 0.2, 0.3})},
@@ -172,7 +167,7 @@ TEST_F(MeshBricks, ATrackedMeshFollowsEdits) {
     const std::size_t before = tracked->bricks().brick_count();
     const auto summary = tracked->edit(steps[i]);
     ASSERT_TRUE(summary.ok()) << summary.status();
-    const ReceivedMesh fresh = mesh(request);
+    const ReceivedMesh fresh = peer_.mesh(request);
     expect_same(tracked->bricks(), fresh);
     EXPECT_EQ(summary->scene_version(), fresh.summary.scene_version());
     EXPECT_EQ(summary->vertices(), fresh.summary.vertices());
@@ -200,23 +195,23 @@ TEST_F(MeshBricks, ATrackedMeshFollowsOthers) {
   ASSERT_TRUE(tracked->refresh().ok());
   EXPECT_FALSE(tracked->changes().is_whole);
   EXPECT_GT(tracked->changes().bricks_put, 0u);
-  expect_same(tracked->bricks(), mesh(request));
+  expect_same(tracked->bricks(), peer_.mesh(request));
 
   ASSERT_TRUE(tracked->refresh().ok());
   EXPECT_EQ(tracked->changes().bricks_put + tracked->changes().bricks_removed, 0u);
-  expect_same(tracked->bricks(), mesh(request));
+  expect_same(tracked->bricks(), peer_.mesh(request));
 
   // Another's edit and one's own in one answer.
   edit.clear_edits();
   *edit.add_edits() = edit_of("#8", "radius", {0.25});
   ASSERT_TRUE(ok(peer_.edit(edit)));
   ASSERT_TRUE(tracked->edit({edit_of("#9", "radius", {0.25})}).ok());
-  expect_same(tracked->bricks(), mesh(request));
+  expect_same(tracked->bricks(), peer_.mesh(request));
 
   // Another scene of that name.
   ASSERT_TRUE(ok(peer_.put("tracked", Ball().scene())));
   ASSERT_TRUE(tracked->refresh().ok());
-  expect_same(tracked->bricks(), mesh(request));
+  expect_same(tracked->bricks(), peer_.mesh(request));
 
   // A scene that is gone ends it, and the status stays.
   EXPECT_TRUE(ok(peer_.remove("tracked")));
@@ -240,7 +235,7 @@ TEST_F(MeshBricks, AMovedPrimitiveSendsAFewBricks) {
     EXPECT_LT(3 * (changes.bricks_put + changes.bricks_removed), all);
     std::cout << changes.bricks_put << " bricks put and " << changes.bricks_removed << " removed of " << all << "\n";
   }
-  expect_same(tracked->bricks(), mesh(mesh_request(named("many"), 0.03)));
+  expect_same(tracked->bricks(), peer_.mesh(mesh_request(named("many"), 0.03)));
   EXPECT_TRUE(ok(peer_.remove("many")));
 }
 

@@ -16,11 +16,6 @@ namespace {
 
 class Mesh : public testing::Test {
  protected:
-  ReceivedMesh mesh(const v1::MeshRequest& request) {
-    ReceivedMesh received;
-    EXPECT_TRUE(ok(peer_.mesh(request, &received)));
-    return received;
-  }
   static void expect_sound(const ReceivedMesh& mesh) {
     const test_support::MeshReport report = test_support::check_mesh(mesh.positions, mesh.triangles);
     EXPECT_TRUE(report.sound()) << report.text();
@@ -34,7 +29,7 @@ class Mesh : public testing::Test {
 TEST_F(Mesh, OfABallIsTheBall) {
   v1::SceneSummary summary;
   ASSERT_TRUE(ok(peer_.put("ball", ball_.scene(), &summary)));
-  const ReceivedMesh received = mesh(mesh_request(named("ball"), 0.02));
+  const ReceivedMesh received = peer_.mesh(mesh_request(named("ball"), 0.02));
   expect_sound(received);
   EXPECT_EQ(received.summary.cell_size(), 0.02);
   EXPECT_EQ(received.summary.scene_version(), summary.version());
@@ -59,7 +54,7 @@ TEST_F(Mesh, OfABallIsTheBall) {
 TEST_F(Mesh, OfTheSameRequestIsTheSameBytes) {
   const v1::Scene scene = test_support::random_scene(13, {.nodes = 80});
   const v1::MeshRequest request = mesh_request(inlined(scene), 0.04);
-  const ReceivedMesh first = mesh(request), second = mesh(request);
+  const ReceivedMesh first = peer_.mesh(request), second = peer_.mesh(request);
   expect_sound(first);
   EXPECT_EQ(first.triangles, second.triangles);
   EXPECT_EQ(first.positions, second.positions);
@@ -77,9 +72,9 @@ TEST_F(Mesh, OfTheSameRequestIsTheSameBytes) {
 
 TEST_F(Mesh, CanGoWithoutNormals) {
   v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.1);
-  const ReceivedMesh with = mesh(request);
+  const ReceivedMesh with = peer_.mesh(request);
   request.set_omit_normals(true);
-  const ReceivedMesh without = mesh(request);
+  const ReceivedMesh without = peer_.mesh(request);
   EXPECT_TRUE(without.normals.empty());
   EXPECT_EQ(without.positions, with.positions);
   EXPECT_EQ(without.triangles, with.triangles);
@@ -89,16 +84,16 @@ TEST_F(Mesh, CellsAreCountedAlongTheLongestEdge) {
   v1::MeshRequest request;
   *request.mutable_scene() = inlined(ball_.scene());
   request.set_resolution(60);
-  EXPECT_NEAR(mesh(request).summary.cell_size(), 3.0 / 60, 1e-6);
+  EXPECT_NEAR(peer_.mesh(request).summary.cell_size(), 3.0 / 60, 1e-6);
   for (const double x : {-2.0, -2.0, -2.0}) request.add_bounds_min(x);
   for (const double x : {4.0, 2.0, 2.0}) request.add_bounds_max(x);
-  EXPECT_NEAR(mesh(request).summary.cell_size(), 0.1, 1e-12);
+  EXPECT_NEAR(peer_.mesh(request).summary.cell_size(), 0.1, 1e-12);
 }
 
 TEST_F(Mesh, WithoutACellSizeTheServerChoosesOne) {
   v1::MeshRequest request;
   *request.mutable_scene() = inlined(ball_.scene());
-  const ReceivedMesh received = mesh(request);
+  const ReceivedMesh received = peer_.mesh(request);
   expect_sound(received);
   EXPECT_GT(received.summary.cell_size(), 0);
   EXPECT_LE(received.summary.cell_size(), 3.0 / 128 * 1.0001);
@@ -109,7 +104,7 @@ TEST_F(Mesh, IsCappedAtStatedBounds) {
   v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.05);
   for (const double x : {-3.0, -3.0, -3.0}) request.add_bounds_min(x);
   for (const double x : {0.25, 3.0, 3.0}) request.add_bounds_max(x);
-  const ReceivedMesh received = mesh(request);
+  const ReceivedMesh received = peer_.mesh(request);
   expect_sound(received);
   for (std::size_t v = 0; v < received.positions.size(); v += 3) ASSERT_LE(received.positions[v], 0.25f);
   const double volume = test_support::check_mesh(received.positions, received.triangles).volume;
@@ -121,7 +116,7 @@ TEST_F(Mesh, FollowsTheIsoValue) {
   double last = 1e9;
   for (const double iso : {0.05, 0.3, 0.5, 0.8}) {
     request.set_iso(iso);
-    const ReceivedMesh received = mesh(request);
+    const ReceivedMesh received = peer_.mesh(request);
     expect_sound(received);
     const double volume = test_support::check_mesh(received.positions, received.triangles).volume;
     EXPECT_LT(volume, last);
@@ -134,17 +129,17 @@ TEST_F(Mesh, OfNothingIsEmpty) {
     {"name": "a", "sphere": {"radius": 1, "range": 1}},
     {"name": "b", "sphere": {"center": [9, 0, 0], "radius": 1, "range": 1}},
     {"min": {"children": ["a", "b"]}})");
-  EXPECT_TRUE(mesh(mesh_request(inlined(apart), 0.1)).triangles.empty());
+  EXPECT_TRUE(peer_.mesh(mesh_request(inlined(apart), 0.1)).triangles.empty());
   v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.1);
   for (const double x : {50.0, 50.0, 50.0}) request.add_bounds_min(x);
   for (const double x : {51.0, 51.0, 51.0}) request.add_bounds_max(x);
-  EXPECT_TRUE(mesh(request).triangles.empty());
+  EXPECT_TRUE(peer_.mesh(request).triangles.empty());
   request.clear_cells();
-  EXPECT_TRUE(mesh(request).triangles.empty()) << "with a cell size of the server's choice";
+  EXPECT_TRUE(peer_.mesh(request).triangles.empty()) << "with a cell size of the server's choice";
 }
 
 TEST_F(Mesh, ReportsProgressThatNeverFalls) {
-  const ReceivedMesh received = mesh(mesh_request(inlined(ball_.scene()), 0.004));
+  const ReceivedMesh received = peer_.mesh(mesh_request(inlined(ball_.scene()), 0.004));
   EXPECT_FALSE(received.progress.empty());
   for (std::size_t i = 0; i < received.progress.size(); ++i) {
     EXPECT_GE(received.progress[i], i == 0 ? 0 : received.progress[i - 1]);
@@ -166,7 +161,7 @@ TEST_F(Mesh, CostFollowsTheSurface) {
       all.mutable_sum()->add_children(test_support::place(i));
     }
     *scene.add_nodes() = all;
-    const ReceivedMesh received = mesh(mesh_request(inlined(scene), 0.05));
+    const ReceivedMesh received = peer_.mesh(mesh_request(inlined(scene), 0.05));
     expect_sound(received);
     return static_cast<double>(received.summary.cells()) / count;
   };

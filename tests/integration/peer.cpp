@@ -185,6 +185,12 @@ grpc::Status Peer::mesh(const v1::MeshRequest& request, ReceivedMesh* mesh) {
   return status;
 }
 
+ReceivedMesh Peer::mesh(const v1::MeshRequest& request) {
+  ReceivedMesh received;
+  EXPECT_TRUE(ok(mesh(request, &received)));
+  return received;
+}
+
 v1::SceneRef named(const std::string& name) {
   v1::SceneRef ref;
   ref.set_name(name);

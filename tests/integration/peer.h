@@ -50,6 +50,8 @@ class Peer {
   grpc::Status evaluate_grid(const v1::EvaluateGridRequest& request, std::vector<float>* out,
                              std::size_t* messages = nullptr);
   grpc::Status mesh(const v1::MeshRequest& request, ReceivedMesh* mesh);
+  // A test fails where there is none.
+  ReceivedMesh mesh(const v1::MeshRequest& request);
 
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
   v1::FieldService::Stub& fields() { return *fields_; }
