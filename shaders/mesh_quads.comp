@@ -48,6 +48,18 @@ float cost(vec3 a, vec3 b, vec3 c, vec3 d, float crossing, bool knows_crossing) 
   return is_within ? (knows_crossing ? abs(on_edge - crossing) : 0.0) + BEND * (1.0 - flatness) : REFUSED;
 }
 
+// Whether a vertex of the quad lies in a brick that may have creases. What bricks without vertices may have is of no
+// importance to it.
+bool may_crease_around(Quad q) {
+  if ((kinds[q.brick] & KNOWS_CROSSINGS) == 0u) return false;
+  bool may_crease = false;
+  for (uint i = 0u; i < 4u; ++i) {
+    CellRef c = cell_ref(q.brick, quad_cell(q.at, q.axis, i & 1u, i >> 1u));
+    may_crease = may_crease || (c.brick != NO_BRICK && (kinds[c.brick] & MAY_CREASE) != 0u);
+  }
+  return may_crease;
+}
+
 void main() {
   uint n = gl_GlobalInvocationID.x;  // within the slab
   if (n >= count) return;
@@ -57,7 +69,7 @@ void main() {
   vec3 p0 = place(at.vertices.x, edge, at.axis), p1 = place(at.vertices.y, edge, at.axis),
        p2 = place(at.vertices.z, edge, at.axis), p3 = place(at.vertices.w, edge, at.axis);
   float crossing = crossing_place(q);
-  bool knows_crossing = (kinds[at.brick] & KNOWS_CROSSINGS) != 0u;
+  bool knows_crossing = may_crease_around(at);
   float cost02 = cost(p0, p1, p2, p3, crossing, knows_crossing);
   float cost13 = cost(p1, p2, p3, p0, crossing, knows_crossing);
   cuts[q] = min(cost02, cost13) >= REFUSED ? CUT_FAN : cost13 < cost02 ? CUT_13 : CUT_02;

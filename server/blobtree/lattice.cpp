@@ -3,6 +3,7 @@
 #include <absl/strings/str_cat.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace isofield::blobtree {
 namespace {
@@ -18,8 +19,8 @@ class Culler {
   Culler(const Tape& tape, const CullRequest& request) : tape_(tape), request_(request), pruner_(tape) {
     for (int a = 0; a < 3; ++a) {
       bricks_[a] = (request.lattice.cells[a] + kBrickCells - 1) / kBrickCells;
-      wanted_.high[a] = request.within ? std::min(request.within->high[a], bricks_[a]) : bricks_[a];
-      wanted_.low[a] = request.within ? request.within->low[a] : 0;
+      wanted_.high[a] = request.within ? std::min(request.within->box().high[a], bricks_[a]) : bricks_[a];
+      wanted_.low[a] = request.within ? request.within->box().low[a] : 0;
     }
   }
 
@@ -57,12 +58,8 @@ class Culler {
   };
 
   Box box_of(const Cell& cell) const {
-    const double bricks = static_cast<double>(std::uint64_t{1} << cell.level) * kBrickCells;
-    const dvec3 step{request_.lattice.spacing.x * bricks, request_.lattice.spacing.y * bricks,
-                     request_.lattice.spacing.z * bricks};
-    const dvec3& o = request_.lattice.origin;
-    return {{o.x + step.x * cell.x, o.y + step.y * cell.y, o.z + step.z * cell.z},
-            {o.x + step.x * (cell.x + 1), o.y + step.y * (cell.y + 1), o.z + step.z * (cell.z + 1)}};
+    return request_.lattice.box(cell.x, cell.y, cell.z,
+                                static_cast<double>(std::uint64_t{1} << cell.level) * kBrickCells);
   }
 
   bool is_kept(const Cell& cell, const Pruned& p) const {
@@ -113,11 +110,15 @@ class Culler {
     for (int child = 7; child >= 0; --child) {
       const Cell c{cell.level - 1, 2 * cell.x + (child & 1), 2 * cell.y + (child >> 1 & 1), 2 * cell.z + (child >> 2),
                    level};
-      if (meets(c.x, half, 0) && meets(c.y, half, 1) && meets(c.z, half, 2)) stack_.push_back(c);
+      if (is_wanted(c, half)) stack_.push_back(c);
     }
   }
 
-  // Whether the wanted bricks have some along an axis in cell i of so many bricks.
+  // Whether some of the wanted bricks may be in a cell of so many along each edge.
+  bool is_wanted(const Cell& c, std::uint32_t bricks) const {
+    if (c.level == 0 && request_.within && !request_.within->contains(c.x, c.y, c.z)) return false;
+    return meets(c.x, bricks, 0) && meets(c.y, bricks, 1) && meets(c.z, bricks, 2);
+  }
   bool meets(std::uint32_t i, std::uint32_t bricks, int axis) const {
     return std::uint64_t{i} * bricks < wanted_.high[axis] && (std::uint64_t{i} + 1) * bricks > wanted_.low[axis];
   }
@@ -146,6 +147,25 @@ class Culler {
 
 absl::StatusOr<BrickList> cull(const Tape& tape, const CullRequest& request) {
   return Culler(tape, request).run();
+}
+
+BrickSet bricks_of(const Leaf& leaf, const Lattice& lattice) {
+  constexpr double kRoom = 1e-3;  // of a brick, for rounding
+  BrickBox around;
+  const auto along = [&](int axis, double low, double high, double origin, double spacing) {
+    const double size = spacing * kBrickCells;
+    const double most = std::ceil(static_cast<double>(lattice.cells[axis]) / kBrickCells);
+    const double first = std::floor((low - origin) / size - kRoom), last = std::floor((high - origin) / size + kRoom);
+    around.low[axis] = static_cast<std::uint32_t>(std::clamp(first, 0.0, most));
+    around.high[axis] = static_cast<std::uint32_t>(std::clamp(last + 1, 0.0, most));
+  };
+  const Box& support = leaf.support;
+  along(0, support.min.x, support.max.x, lattice.origin.x, lattice.spacing.x);
+  along(1, support.min.y, support.max.y, lattice.origin.y, lattice.spacing.y);
+  along(2, support.min.z, support.max.z, lattice.origin.z, lattice.spacing.z);
+  return BrickSet(around, [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return !vanishes(leaf, lattice.box(x, y, z, kBrickCells));
+  });
 }
 
 }  // namespace isofield::blobtree

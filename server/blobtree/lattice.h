@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "blobtree/brick_set.h"
 #include "blobtree/pruner.h"
 #include "blobtree/tape.h"
 
@@ -19,6 +20,13 @@ struct Lattice {
   dvec3 origin;
   dvec3 spacing;
   std::array<std::uint32_t, 3> cells{};  // along x, y, z
+
+  // Cell (x, y, z) of those that are so many cells along each edge.
+  Box box(std::uint32_t x, std::uint32_t y, std::uint32_t z, double cells_along) const {
+    const dvec3 step{spacing.x * cells_along, spacing.y * cells_along, spacing.z * cells_along};
+    return {{origin.x + step.x * x, origin.y + step.y * y, origin.z + step.z * z},
+            {origin.x + step.x * (x + 1), origin.y + step.y * (y + 1), origin.z + step.z * (z + 1)}};
+  }
 };
 
 // Cells along a brick's edge. Small bricks evaluate more shared corners but far fewer cells without surface, on shorter
@@ -41,17 +49,10 @@ enum class Keep {
   kSupport,  // bricks where the field may differ from 0
 };
 
-// Bricks from `low` on and below `high`, along each axis.
-struct BrickBox {
-  std::array<std::uint32_t, 3> low{}, high{};
-
-  bool operator==(const BrickBox&) const = default;
-};
-
 struct CullRequest {
   Lattice lattice;
   // Only these of its bricks.
-  std::optional<BrickBox> within;
+  std::optional<BrickSet> within;
   Keep keep = Keep::kSurface;
   double iso = 0.5;
   // kSurface: what lies at the lattice's boundary counts as outside, so that the surface closes there.
@@ -64,5 +65,8 @@ struct CullRequest {
 // RESOURCE_EXHAUSTED: more than max_bricks bricks. Descends from the whole lattice to its bricks through cells of a
 // hierarchy, each pruning its parent's tape, so that the cost follows the bricks kept and not the box.
 absl::StatusOr<BrickList> cull(const Tape& tape, const CullRequest& request);
+
+// Bricks on whose tapes that cull() makes the leaf may be: where its field may differ from 0. Positive leaves.
+BrickSet bricks_of(const Leaf& leaf, const Lattice& lattice);
 
 }  // namespace isofield::blobtree

@@ -63,4 +63,8 @@ Interval distance_bounds(const Leaf& leaf, const CentredBox& box) {
   return {d.lo - room, d.hi + room};
 }
 
+bool vanishes(const Leaf& leaf, const Box& box) {
+  return !leaf.support.touches(box) || distance_bounds(leaf, CentredBox(box)).lo >= leaf.range;
+}
+
 }  // namespace isofield::blobtree

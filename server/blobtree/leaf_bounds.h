@@ -18,4 +18,7 @@ struct CentredBox {
 // Of leaf.distance(), and of what float32 makes of it on the device.
 Interval distance_bounds(const Leaf& leaf, const CentredBox& box);
 
+// Whether a positive leaf's field is 0 throughout the box.
+bool vanishes(const Leaf& leaf, const Box& box);
+
 }  // namespace isofield::blobtree

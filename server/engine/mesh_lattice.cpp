@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "engine/mesh_part.h"
 #include "engine/status_macros.h"
 
 namespace isofield::engine {
@@ -15,7 +14,6 @@ namespace {
 
 using blobtree::Box;
 using blobtree::Brick;
-using blobtree::BrickBox;
 using blobtree::BrickList;
 using blobtree::CullRequest;
 using blobtree::dvec3;
@@ -25,17 +23,13 @@ double longest_edge(const Box& box) {
   return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
 }
 
-std::optional<BrickBox> with_halo(std::optional<BrickBox> box) {
-  if (!box) return box;
-  for (std::uint32_t& low : box->low) low -= std::min(low, kHaloBricks);
-  for (std::uint32_t& high : box->high) high += std::min(~high, kHaloBricks);
-  return box;
-}
+using Within = std::optional<blobtree::BrickSet>;
 
-absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshRequest& request, const Lattice& lattice,
-                                       std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
+absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshRequest& request, const Within& within,
+                                       const Lattice& lattice, std::uint64_t max_bricks,
+                                       const std::function<bool()>& cancelled) {
   return blobtree::cull(tape, CullRequest{.lattice = lattice,
-                                          .within = with_halo(request.part),
+                                          .within = within,
                                           .keep = blobtree::Keep::kSurface,
                                           .iso = request.iso,
                                           .is_capped = request.bounds.has_value(),
@@ -44,12 +38,13 @@ absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshReq
 }
 
 // Bricks at this cell size, or max_bricks + 1 when there are more.
-absl::StatusOr<std::uint64_t> count_bricks(const blobtree::Tape& tape, MeshRequest request, double cell_size,
-                                           std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
+absl::StatusOr<std::uint64_t> count_bricks(const blobtree::Tape& tape, MeshRequest request, const Within& within,
+                                           double cell_size, std::uint64_t max_bricks,
+                                           const std::function<bool()>& cancelled) {
   request.cell_size = cell_size;
   const auto lattice = mesh_lattice(tape, request);
   if (!lattice.ok()) return max_bricks + 1;
-  const auto list = cull_surface(tape, request, *lattice, max_bricks, cancelled);
+  const auto list = cull_surface(tape, request, within, *lattice, max_bricks, cancelled);
   if (absl::IsResourceExhausted(list.status())) return max_bricks + 1;
   if (!list.ok()) return list.status();
   return list->bricks.size();
@@ -57,18 +52,19 @@ absl::StatusOr<std::uint64_t> count_bricks(const blobtree::Tape& tape, MeshReque
 
 // The smallest cell size, to a few per cent, whose bricks are admitted.
 absl::StatusOr<double> smallest_fitting_cell(const blobtree::Tape& tape, const MeshRequest& request,
-                                             std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
+                                             const Within& within, std::uint64_t max_bricks,
+                                             const std::function<bool()>& cancelled) {
   double too_small = request.cell_size, fits = too_small;
   for (;;) {
     fits *= 2;
-    const auto bricks = count_bricks(tape, request, fits, max_bricks, cancelled);
+    const auto bricks = count_bricks(tape, request, within, fits, max_bricks, cancelled);
     if (!bricks.ok()) return bricks.status();
     if (*bricks <= max_bricks) break;
     too_small = fits;
   }
   while (fits / too_small > 1.04) {
     const double middle = std::sqrt(fits * too_small);
-    const auto bricks = count_bricks(tape, request, middle, max_bricks, cancelled);
+    const auto bricks = count_bricks(tape, request, within, middle, max_bricks, cancelled);
     if (!bricks.ok()) return bricks.status();
     (*bricks <= max_bricks ? fits : too_small) = middle;
   }
@@ -136,22 +132,23 @@ absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const Mes
   double cell = longest_edge(request.bounds.value_or(tape.support)) / kAutomaticCellsAlong;
   for (const blobtree::Leaf& leaf : tape.leaves) cell = std::min(cell, thinness(leaf));
   for (;; cell *= 1.25) {
-    const auto bricks = count_bricks(tape, request, cell, most, {});
+    const auto bricks = count_bricks(tape, request, std::nullopt, cell, most, {});
     if (!bricks.ok()) return bricks.status();
     if (*bricks <= most) return cell;
   }
 }
 
 absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
-                                             std::uint64_t max_bricks, const std::function<bool()>& cancelled) {
+                                             const std::optional<blobtree::BrickSet>& within, std::uint64_t max_bricks,
+                                             const std::function<bool()>& cancelled) {
   const auto find = [&]() -> absl::StatusOr<SurfaceBricks> {
     ISOFIELD_ASSIGN_OR_RETURN(Lattice lattice, mesh_lattice(tape, request));
-    ISOFIELD_ASSIGN_OR_RETURN(BrickList list, cull_surface(tape, request, lattice, max_bricks, cancelled));
+    ISOFIELD_ASSIGN_OR_RETURN(BrickList list, cull_surface(tape, request, within, lattice, max_bricks, cancelled));
     return SurfaceBricks{lattice, std::move(list)};
   };
   absl::StatusOr<SurfaceBricks> found = find();
   if (!absl::IsResourceExhausted(found.status())) return found;
-  ISOFIELD_ASSIGN_OR_RETURN(const double fits, smallest_fitting_cell(tape, request, max_bricks, cancelled));
+  ISOFIELD_ASSIGN_OR_RETURN(const double fits, smallest_fitting_cell(tape, request, within, max_bricks, cancelled));
   return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", request.cell_size, " takes more cells than the ",
                                                    max_bricks * blobtree::kCellsPerBrick, " in all, or the ",
                                                    kMaxCellsPerAxis,

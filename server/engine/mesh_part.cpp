@@ -47,7 +47,8 @@ class Run {
         callbacks_(callbacks),
         list_(std::move(part.list)),
         owned_(part.owned),
-        inner_(part.inner) {
+        placed_(part.placed),
+        crossed_(part.crossed) {
     const Lattice& lattice = part.lattice;
     const bool is_signed = scene.tape().law == operators::Law::kSigned;
     constants_ = {{static_cast<float>(lattice.origin.x), static_cast<float>(lattice.origin.y),
@@ -61,18 +62,20 @@ class Run {
                   static_cast<float>(request.tolerance)};
   }
 
-  absl::StatusOr<MeshCells> cells() {
+  absl::StatusOr<PartMesh> mesh() {
     ISOFIELD_RETURN_IF_ERROR(upload_bricks());
     ISOFIELD_RETURN_IF_ERROR(sample());
     ISOFIELD_RETURN_IF_ERROR(connect());
-    MeshCells cells{.cells = std::uint64_t{owned_} * kCells};
-    if (starts_[owned_][0] == 0 && starts_[owned_][1] == 0) return cells;
+    PartMesh mesh;
+    mesh.cells.cells = std::uint64_t{owned_} * kCells;
+    if (starts_[placed_][0] == 0 && starts_[owned_][1] == 0) return mesh;
     ISOFIELD_RETURN_IF_ERROR(list_elements());
     ISOFIELD_RETURN_IF_ERROR(find_crossings());
     ISOFIELD_RETURN_IF_ERROR(place_vertices());
     ISOFIELD_RETURN_IF_ERROR(settle_vertices());
-    ISOFIELD_RETURN_IF_ERROR(make_triangles(cells));
-    return cells;
+    ISOFIELD_RETURN_IF_ERROR(make_triangles(mesh.cells));
+    list_vertices_beside(mesh.beside);
+    return mesh;
   }
 
  private:
@@ -227,7 +230,7 @@ class Run {
     for (std::size_t s = 0; s < slabs_.size(); ++s) {
       ISOFIELD_RETURN_IF_ERROR(check(0.65 + 0.1 * s / slabs_.size()));
       ISOFIELD_RETURN_IF_ERROR(find_crossings(slabs_[s], [&](std::uint32_t b) {
-        return b < inner_ && (kinds_[b] & kKnowsCrossings) != 0 && starts_[b + 1][1] > starts_[b][1];
+        return b < crossed_ && (kinds_[b] & kKnowsCrossings) != 0 && starts_[b + 1][1] > starts_[b][1];
       }));
     }
     return absl::OkStatus();
@@ -250,7 +253,7 @@ class Run {
     ISOFIELD_ASSIGN_OR_RETURN(positions_, session.scratch(std::size_t{12} * starts_.back()[0]));
     ISOFIELD_ASSIGN_OR_RETURN(kinds_buffer_, session.upload(std::span(kinds_)));
     for (const Slab& slab : slabs_) {
-      if (slab.first >= inner_) break;
+      if (slab.first >= placed_) break;
       Constants constants = constants_;
       constants.first = slab.first;
       ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel,
@@ -264,7 +267,7 @@ class Run {
                                                             {11, &positions_},
                                                             {12, &kinds_buffer_},
                                                             {13, &slab.samples}},
-                                                           constants, std::min(slab.count, inner_ - slab.first)));
+                                                           constants, std::min(slab.count, placed_ - slab.first)));
     }
     ISOFIELD_RETURN_IF_ERROR(session.download(kinds_buffer_, std::span(kinds_)));
     return session.run();
@@ -272,20 +275,18 @@ class Run {
 
   // Onto the surface: vertices on creases along all sides of these, then all that are not there yet.
   absl::Status settle_vertices() {
-    // Of the part's own bricks, which come first.
-    const std::size_t floats = std::size_t{3} * starts_[owned_][0];
-    vertex_positions_.resize(floats);
-    if (request_.with_normals) vertex_normals_.resize(floats);
-    const auto has_vertices = [&](std::uint32_t b) { return b < inner_ && starts_[b + 1][0] > starts_[b][0]; };
+    vertex_positions_.resize(std::size_t{3} * starts_[placed_][0]);
+    if (request_.with_normals) vertex_normals_.resize(std::size_t{3} * starts_[owned_][0]);
+    const auto has_vertices = [&](std::uint32_t b) { return b < placed_ && starts_[b + 1][0] > starts_[b][0]; };
     const auto has_own_vertices = [&](std::uint32_t b) { return b < owned_ && starts_[b + 1][0] > starts_[b][0]; };
-    const auto has_creases = [&](std::uint32_t b) { return b < inner_ && (kinds_[b] & kHasCreases) != 0; };
+    const auto has_creases = [&](std::uint32_t b) { return b < placed_ && (kinds_[b] & kHasCreases) != 0; };
     Buffer normals;
     for (std::size_t s = 0; s < slabs_.size(); ++s) {
       ISOFIELD_RETURN_IF_ERROR(check(0.75 + 0.2 * s / slabs_.size()));
       const Slab& slab = slabs_[s];
       ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
       if (s == 0 && request_.with_normals) {
-        ISOFIELD_ASSIGN_OR_RETURN(normals, session.scratch(4 * floats));
+        ISOFIELD_ASSIGN_OR_RETURN(normals, session.scratch(4 * vertex_normals_.size()));
       }
       std::vector<Buffer> keep;
       keep.reserve(6);
@@ -359,7 +360,7 @@ class Run {
       if (!from.empty())
         to.insert(to.end(), from.begin() + 3 * std::size_t{begin}, from.begin() + 3 * std::size_t{end});
     };
-    cells.positions.reserve(vertex_positions_.size() + centres.size());
+    cells.positions.reserve(3 * std::size_t{starts_[owned_][0]} + centres.size());
     cells.normals.reserve(vertex_normals_.size() + centre_normals.size());
     for (std::uint32_t b = 0; b < owned_; ++b) {
       const MeshStart begin = starts_[b], end = starts_[b + 1];
@@ -375,6 +376,15 @@ class Run {
       append(cells.normals, centre_normals, fan, fan_end);
     }
     return absl::OkStatus();
+  }
+
+  void list_vertices_beside(MeshCells& beside) const {
+    for (std::uint32_t b = owned_; b < placed_; ++b) {
+      const std::uint32_t vertices = starts_[b + 1][0] - starts_[b][0];
+      const Brick& at = list_.bricks[b];
+      if (vertices > 0) beside.bricks.push_back({at.x, at.y, at.z, vertices, 0});
+    }
+    beside.positions.assign(vertex_positions_.begin() + 3 * std::size_t{starts_[owned_][0]}, vertex_positions_.end());
   }
 
   absl::StatusOr<std::vector<float>> find_fan_normals(const QuadCutter& cutter, const Buffer& centres) {
@@ -403,7 +413,7 @@ class Run {
   const MeshCallbacks& callbacks_;
 
   BrickList list_;  // its code has gone to tapes_, and the bricks' tapes begin in their windows
-  const std::uint32_t owned_, inner_;
+  const std::uint32_t owned_, placed_, crossed_;  // as of PartBricks
   std::optional<TapeWindows> tapes_;
   std::vector<std::uint32_t> windows_;  // of the bricks' tapes
   Constants constants_{};
@@ -417,9 +427,9 @@ class Run {
 
 }  // namespace
 
-absl::StatusOr<MeshCells> mesh_part(gpu::Device& device, KernelCache& kernels, const ResidentScene& scene,
-                                    const MeshRequest& request, PartBricks part, const MeshCallbacks& callbacks) {
-  return Run(device, kernels, scene, request, std::move(part), callbacks).cells();
+absl::StatusOr<PartMesh> mesh_part(gpu::Device& device, KernelCache& kernels, const ResidentScene& scene,
+                                   const MeshRequest& request, PartBricks part, const MeshCallbacks& callbacks) {
+  return Run(device, kernels, scene, request, std::move(part), callbacks).mesh();
 }
 
 }  // namespace isofield::engine

@@ -14,8 +14,8 @@
 namespace isofield::engine {
 namespace {
 
-using blobtree::Box;
 using blobtree::BrickBox;
+using blobtree::BrickSet;
 using blobtree::Float4;
 using blobtree::Instruction;
 using blobtree::Lattice;
@@ -35,40 +35,14 @@ bool same_lattice(const Lattice& a, const Lattice& b) {
   return !(a.origin != b.origin) && !(a.spacing != b.spacing);
 }
 
-bool meet(const BrickBox& a, const BrickBox& b) {
-  for (int i = 0; i < 3; ++i) {
-    if (a.low[i] >= b.high[i] || b.low[i] >= a.high[i]) return false;
-  }
-  return true;
-}
-
-BrickBox around(const BrickBox& a, std::uint32_t bricks) {
-  BrickBox box = a;
-  for (int i = 0; i < 3; ++i) {
-    box.low[i] -= std::min(box.low[i], bricks);
-    box.high[i] += bricks;
-  }
-  return box;
-}
-
-bool holds(const BrickBox& box, const std::array<std::uint32_t, 3>& brick) {
-  for (int i = 0; i < 3; ++i) {
-    if (brick[i] < box.low[i] || brick[i] >= box.high[i]) return false;
-  }
-  return true;
-}
-
-// Boxes that share bricks become one.
-void join_boxes(std::vector<BrickBox>& boxes) {
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t j = i + 1; j < boxes.size(); ++j) {
-      if (!meet(boxes[i], boxes[j])) continue;
-      for (int a = 0; a < 3; ++a) {
-        boxes[i].low[a] = std::min(boxes[i].low[a], boxes[j].low[a]);
-        boxes[i].high[a] = std::max(boxes[i].high[a], boxes[j].high[a]);
-      }
-      boxes.erase(boxes.begin() + j);
-      j = i;  // the larger one may meet those before
+// Sets near each other become one: their parts of the mesh would overlap.
+void join_near(std::vector<BrickSet>& sets) {
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (std::size_t j = i + 1; j < sets.size(); ++j) {
+      if (!blobtree::meet(sets[i].box().grown(2, 2), sets[j].box())) continue;
+      sets[i] = sets[i].joined(sets[j]);
+      sets.erase(sets.begin() + j);
+      j = i;  // the larger one may be near those before
     }
   }
 }
@@ -80,29 +54,29 @@ void append(std::string& bytes, const std::vector<T>& from, std::size_t begin, s
 
 }  // namespace
 
-std::optional<std::vector<Box>> changed_boxes(const ResidentScene& before, const ResidentScene& after) {
+std::optional<std::vector<const Leaf*>> changed_leaves(const ResidentScene& before, const ResidentScene& after) {
   const blobtree::Tape &a = before.tape(), &b = after.tape();
   const blobtree::ParameterBuffers &p = before.parameters(), &q = after.parameters();
   const bool same_program = a.law == operators::Law::kPositive && b.law == a.law && same_bytes(a.code, b.code) &&
                             same_bytes(p.operations, q.operations) && same_bytes(p.tables, q.tables) &&
                             a.volumes == b.volumes && a.leaves.size() == b.leaves.size();
   if (!same_program) return std::nullopt;
-  std::vector<Box> boxes;
+  std::vector<const Leaf*> leaves;
   for (std::size_t i = 0; i < a.leaves.size(); ++i) {
     if (same_record(a.leaves[i], p.leaves, q.leaves)) continue;
     // Signed fields reach everywhere.
     if (a.leaves[i].law != operators::Law::kPositive) return std::nullopt;
-    boxes.push_back(a.leaves[i].support);
-    boxes.push_back(b.leaves[i].support);
+    leaves.push_back(&a.leaves[i]);
+    leaves.push_back(&b.leaves[i]);
   }
-  return boxes;
+  return leaves;
 }
 
 absl::StatusOr<MeshTracker::Update> MeshTracker::update(SceneLease scene, const MeshCallbacks& callbacks) {
   const SceneLease before = std::exchange(before_, nullptr);
   const auto run = [&]() -> absl::StatusOr<Update> {
-    const auto boxes = before ? changed_boxes(*before, *scene) : std::nullopt;
-    if (!boxes || before->tape().support.empty() || scene->tape().support.empty()) {
+    const auto leaves = before ? changed_leaves(*before, *scene) : std::nullopt;
+    if (!leaves || before->tape().support.empty() || scene->tape().support.empty()) {
       return update_whole(*scene, callbacks);
     }
     ISOFIELD_ASSIGN_OR_RETURN(const Lattice old_lattice, mesh_lattice(before->tape(), request_));
@@ -114,9 +88,11 @@ absl::StatusOr<MeshTracker::Update> MeshTracker::update(SceneLease scene, const 
       return update;
     }
     Update all;
-    ISOFIELD_ASSIGN_OR_RETURN(const std::vector<BrickBox> bricks, brick_boxes(*boxes, lattice));
-    for (const BrickBox& box : bricks) {
-      ISOFIELD_ASSIGN_OR_RETURN(Update update, update_part(*scene, box, callbacks));
+    std::vector<BrickSet> changed;
+    for (const Leaf* leaf : *leaves) changed.push_back(blobtree::bricks_of(*leaf, lattice));
+    join_near(changed);
+    for (std::size_t part = 0; part < changed.size(); ++part) {
+      ISOFIELD_ASSIGN_OR_RETURN(Update update, update_part(*scene, changed, part, callbacks));
       all.removed.insert(all.removed.end(), update.removed.begin(), update.removed.end());
       std::move(update.changed.begin(), update.changed.end(), std::back_inserter(all.changed));
     }
@@ -140,31 +116,6 @@ std::uint64_t MeshTracker::triangles() const {
   std::uint64_t bytes = 0;
   for (const auto& [key, content] : bricks_) bytes += content.triangles.size();
   return bytes / 12;
-}
-
-absl::StatusOr<std::vector<BrickBox>> MeshTracker::brick_boxes(const std::vector<Box>& boxes,
-                                                               const Lattice& lattice) const {
-  // Bricks that have a corner in the closed box, with room for rounding.
-  constexpr double kRoom = 1e-3;
-  std::vector<BrickBox> found;
-  for (const Box& box : boxes) {
-    BrickBox bricks;
-    bool is_within = true;
-    const auto along = [&](int axis, double low, double high, double origin, double spacing) {
-      const double size = spacing * blobtree::kBrickCells;
-      const double first = std::floor((low - origin) / size - kRoom), last = std::floor((high - origin) / size + kRoom);
-      const double most = std::ceil(static_cast<double>(lattice.cells[axis]) / blobtree::kBrickCells);
-      is_within = is_within && last >= 0 && first < most;
-      bricks.low[axis] = static_cast<std::uint32_t>(std::clamp(first, 0.0, most));
-      bricks.high[axis] = static_cast<std::uint32_t>(std::clamp(last + 1, 0.0, most));
-    };
-    along(0, box.min.x, box.max.x, lattice.origin.x, lattice.spacing.x);
-    along(1, box.min.y, box.max.y, lattice.origin.y, lattice.spacing.y);
-    along(2, box.min.z, box.max.z, lattice.origin.z, lattice.spacing.z);
-    if (is_within) found.push_back(bricks);
-  }
-  join_boxes(found);
-  return found;
 }
 
 void MeshTracker::merge(const MeshCells& cells, std::vector<MeshCells>& changed) {
@@ -212,51 +163,58 @@ absl::StatusOr<MeshTracker::Update> MeshTracker::update_whole(const ResidentScen
   return update;
 }
 
-absl::StatusOr<MeshTracker::Update> MeshTracker::update_part(const ResidentScene& scene, const BrickBox& changed,
+absl::StatusOr<MeshTracker::Update> MeshTracker::update_part(const ResidentScene& scene,
+                                                             const std::vector<BrickSet>& changed, std::size_t part,
                                                              const MeshCallbacks& callbacks) {
-  // Triangles of the bricks beside those that change stand on vertices of these. Their own vertices change only where a
-  // face that both share is ambiguous; then one brick more is looked at.
-  for (std::uint32_t reach = 1;; ++reach) {
-    MeshRequest request = request_;
-    request.part = around(changed, reach);
-    const BrickBox inner = around(changed, reach - 1);
-    MeshCells made;
-    ISOFIELD_RETURN_IF_ERROR(mesher_.cells(scene, request, callbacks, [&](const MeshCells& cells) {
-      made = cells;
-      return absl::OkStatus();
-    }));
-    bool moves_vertices = false;
+  const auto may_hold_surface = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return bricks_.contains({x, y, z}) ||
+           std::any_of(changed.begin(), changed.end(), [&](const BrickSet& set) { return set.contains(x, y, z); });
+  };
+  // Vertices of bricks beside those that change do so only where a face that both share is ambiguous; then one brick
+  // more is looked at.
+  for (std::uint32_t reach = 0;; ++reach) {
+    const BrickSet moved = changed[part].grown(reach, reach);
+    PartSets sets(moved.grown(0, 1));  // triangles belong to the uppermost brick that they have a vertex in
+    sets.placed = moved.grown(1, 1);
+    sets.crossed = moved.grown(1, 2);
+    const BrickSet sampled = moved.grown(2, 2);
+    sets.sampled = BrickSet(sampled.box(), [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+      return sampled.contains(x, y, z) && may_hold_surface(x, y, z);
+    });
+    ISOFIELD_ASSIGN_OR_RETURN(const PartMesh made, mesher_.part(scene, request_, sets, callbacks));
     absl::flat_hash_set<Key> present;
-    std::size_t vertex = 0;
-    for (const MeshBrick& b : made.bricks) {
-      const Key key{b.x, b.y, b.z};
-      present.insert(key);
-      if (!holds(inner, key)) {
-        std::string vertices;
-        append(vertices, made.positions, 3 * vertex, 3 * std::size_t{b.vertices});
-        const auto it = bricks_.find(key);
-        moves_vertices =
-            moves_vertices ||
-            (it == bricks_.end() ? b.vertices > 0 : it->second.vertices.compare(0, vertices.size(), vertices) != 0);
+    bool moves_others = false;
+    const auto look_at = [&](const MeshCells& cells) {
+      std::size_t vertex = 0;
+      for (const MeshBrick& b : cells.bricks) {
+        const Key key{b.x, b.y, b.z};
+        present.insert(key);
+        if (!moved.contains(b.x, b.y, b.z)) {
+          std::string vertices;
+          append(vertices, cells.positions, 3 * vertex, 3 * std::size_t{b.vertices});
+          const auto it = bricks_.find(key);
+          moves_others |= it == bricks_.end() || it->second.vertices.compare(0, vertices.size(), vertices) != 0;
+        }
+        vertex += b.vertices;
       }
-      vertex += b.vertices;
-    }
+    };
+    look_at(made.cells);
+    look_at(made.beside);
     Update update;
-    const BrickBox& box = *request.part;
+    const BrickBox& box = sets.placed.box();
     for (std::uint32_t z = box.low[2]; z < box.high[2]; ++z) {
       for (std::uint32_t y = box.low[1]; y < box.high[1]; ++y) {
         for (std::uint32_t x = box.low[0]; x < box.high[0]; ++x) {
           const Key key{x, y, z};
-          const auto it = bricks_.find(key);
-          if (it == bricks_.end() || present.contains(key)) continue;
-          moves_vertices = moves_vertices || (!holds(inner, key) && !it->second.vertices.empty());
+          if (!sets.placed.contains(x, y, z) || present.contains(key) || !bricks_.contains(key)) continue;
+          moves_others |= !moved.contains(x, y, z);
           update.removed.push_back(key);
         }
       }
     }
-    if (moves_vertices) continue;
+    if (moves_others) continue;
     for (const Key& key : update.removed) bricks_.erase(key);
-    merge(made, update.changed);
+    merge(made.cells, update.changed);
     return update;
   }
 }

@@ -16,8 +16,9 @@
 
 namespace isofield::engine {
 
-// Boxes outside of which the fields of two scenes are the same bits; nothing: no such boxes are known.
-std::optional<std::vector<blobtree::Box>> changed_boxes(const ResidentScene& before, const ResidentScene& after);
+// Leaves, of both scenes, outside of whose supports the two fields are the same bits; nothing: no such are known.
+std::optional<std::vector<const blobtree::Leaf*>> changed_leaves(const ResidentScene& before,
+                                                                 const ResidentScene& after);
 
 // One thread.
 class MeshTracker {
@@ -47,10 +48,9 @@ class MeshTracker {
   using Key = std::array<std::uint32_t, 3>;
 
   absl::StatusOr<Update> update_whole(const ResidentScene& scene, const MeshCallbacks& callbacks);
-  absl::StatusOr<Update> update_part(const ResidentScene& scene, const blobtree::BrickBox& changed,
-                                     const MeshCallbacks& callbacks);
-  absl::StatusOr<std::vector<blobtree::BrickBox>> brick_boxes(const std::vector<blobtree::Box>& boxes,
-                                                              const blobtree::Lattice& lattice) const;
+  // Of the bricks changed[part].
+  absl::StatusOr<Update> update_part(const ResidentScene& scene, const std::vector<blobtree::BrickSet>& changed,
+                                     std::size_t part, const MeshCallbacks& callbacks);
   // Notes what `cells` hold; what of it is new goes to `changed`.
   void merge(const MeshCells& cells, std::vector<MeshCells>& changed);
 

@@ -1,6 +1,7 @@
 #include "engine/mesher.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "engine/mesh_lattice.h"
@@ -13,35 +14,25 @@ namespace {
 using blobtree::Brick;
 using blobtree::BrickBox;
 
-// How far a brick lies outside the box, in bricks.
-std::uint32_t distance(const BrickBox& box, const Brick& b) {
-  const auto along = [](std::uint32_t low, std::uint32_t high, std::uint32_t i) {
-    return i < low ? low - i : i >= high ? i - high + 1 : 0;
-  };
-  return std::max(
-      {along(box.low[0], box.high[0], b.x), along(box.low[1], box.high[1], b.y), along(box.low[2], box.high[2], b.z)});
-}
-
-// The bricks of `box` with those around it.
-PartBricks part_of(const SurfaceBricks& all, const BrickBox& box) {
+PartBricks part_of(const SurfaceBricks& all, const PartSets& sets) {
   PartBricks part{.lattice = all.lattice};
   part.list.code = all.list.code;
-  std::vector<Brick> by_distance[kHaloBricks + 1];
+  std::array<std::vector<Brick>, 4> nested;
   for (const Brick& b : all.list.bricks) {
-    const std::uint32_t d = distance(box, b);
-    if (d <= kHaloBricks) by_distance[d].push_back(b);
+    const auto is_in = [&](const blobtree::BrickSet& set) { return set.contains(b.x, b.y, b.z); };
+    if (!is_in(sets.sampled)) continue;
+    nested[is_in(sets.owned) ? 0 : is_in(sets.placed) ? 1 : is_in(sets.crossed) ? 2 : 3].push_back(b);
   }
-  part.owned = static_cast<std::uint32_t>(by_distance[0].size());
-  part.inner = part.owned + static_cast<std::uint32_t>(by_distance[1].size());
-  for (const auto& bricks : by_distance) {
-    part.list.bricks.insert(part.list.bricks.end(), bricks.begin(), bricks.end());
-  }
+  part.owned = static_cast<std::uint32_t>(nested[0].size());
+  part.placed = part.owned + static_cast<std::uint32_t>(nested[1].size());
+  part.crossed = part.placed + static_cast<std::uint32_t>(nested[2].size());
+  for (const auto& bricks : nested) part.list.bricks.insert(part.list.bricks.end(), bricks.begin(), bricks.end());
   return part;
 }
 
 PartBricks whole_of(SurfaceBricks all) {
   const auto count = static_cast<std::uint32_t>(all.list.bricks.size());
-  return {all.lattice, std::move(all.list), count, count};
+  return {all.lattice, std::move(all.list), count, count, count};
 }
 
 }  // namespace
@@ -59,7 +50,10 @@ absl::StatusOr<Mesh> Mesher::mesh(const ResidentScene& scene, const MeshRequest&
 
 absl::Status Mesher::cells(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
                            const Deliver& deliver) {
-  if (request.part) return make(scene, request, callbacks, deliver).status();
+  if (request.part) {
+    ISOFIELD_ASSIGN_OR_RETURN(const PartMesh mesh, part(scene, request, PartSets(*request.part), callbacks));
+    return mesh.cells.cells == 0 ? absl::OkStatus() : deliver(mesh.cells);
+  }
   if (const auto kept = cache_.find(scene, request)) {
     for (const auto& part : *kept) ISOFIELD_RETURN_IF_ERROR(deliver(*part));
     return absl::OkStatus();
@@ -69,31 +63,41 @@ absl::Status Mesher::cells(const ResidentScene& scene, const MeshRequest& reques
   return absl::OkStatus();
 }
 
-absl::StatusOr<MeshCache::Parts> Mesher::make(const ResidentScene& scene, const MeshRequest& request,
-                                              const MeshCallbacks& callbacks, const Deliver& deliver) {
-  if (scene.tape().support.empty()) return MeshCache::Parts{};
+absl::StatusOr<SurfaceBricks> Mesher::find_bricks(const ResidentScene& scene, const MeshRequest& request,
+                                                  const std::optional<blobtree::BrickSet>& within,
+                                                  const MeshCallbacks& callbacks) const {
+  if (scene.tape().support.empty()) return SurfaceBricks{};
   if (callbacks.cancelled && callbacks.cancelled()) return absl::CancelledError("the request was cancelled");
   // One binding holds a word for every cell.
   const std::uint64_t bound = device_.description().max_buffer_bytes / (4 * blobtree::kCellsPerBrick);
   const std::uint64_t most = std::min<std::uint64_t>({request.max_cells / blobtree::kCellsPerBrick, bound, 1u << 24});
-  ISOFIELD_ASSIGN_OR_RETURN(SurfaceBricks all, surface_bricks(scene.tape(), request, most, callbacks.cancelled));
-  std::vector<Brick>& bricks = all.list.bricks;
-  if (bricks.empty()) return MeshCache::Parts{};
-  std::stable_sort(bricks.begin(), bricks.end(),
+  ISOFIELD_ASSIGN_OR_RETURN(SurfaceBricks all,
+                            surface_bricks(scene.tape(), request, within, most, callbacks.cancelled));
+  std::stable_sort(all.list.bricks.begin(), all.list.bricks.end(),
                    [](const Brick& a, const Brick& b) { return a.z / kLayerBricks < b.z / kLayerBricks; });
+  return all;
+}
+
+absl::StatusOr<PartMesh> Mesher::part(const ResidentScene& scene, const MeshRequest& request, const PartSets& sets,
+                                      const MeshCallbacks& callbacks) {
+  ISOFIELD_ASSIGN_OR_RETURN(const SurfaceBricks all, find_bricks(scene, request, sets.sampled, callbacks));
+  PartBricks bricks = part_of(all, sets);
+  if (bricks.placed == 0) return PartMesh{};
+  return mesh_part(device_, kernels_, scene, request, std::move(bricks), callbacks);
+}
+
+absl::StatusOr<MeshCache::Parts> Mesher::make(const ResidentScene& scene, const MeshRequest& request,
+                                              const MeshCallbacks& callbacks, const Deliver& deliver) {
   MeshCache::Parts made;
+  ISOFIELD_ASSIGN_OR_RETURN(SurfaceBricks all, find_bricks(scene, request, std::nullopt, callbacks));
+  const std::vector<Brick>& bricks = all.list.bricks;
   const auto run = [&](PartBricks part, double from, double to) -> absl::Status {
     MeshCallbacks own = callbacks;
     if (callbacks.progress) own.progress = [&](double f) { callbacks.progress(from + (to - from) * f); };
-    if (part.owned == 0) return absl::OkStatus();
-    ISOFIELD_ASSIGN_OR_RETURN(MeshCells cells, mesh_part(device_, kernels_, scene, request, std::move(part), own));
-    made.push_back(std::make_shared<const MeshCells>(std::move(cells)));
+    ISOFIELD_ASSIGN_OR_RETURN(PartMesh mesh, mesh_part(device_, kernels_, scene, request, std::move(part), own));
+    made.push_back(std::make_shared<const MeshCells>(std::move(mesh.cells)));
     return deliver(*made.back());
   };
-  if (request.part) {
-    ISOFIELD_RETURN_IF_ERROR(run(part_of(all, *request.part), 0, 1));
-    return made;
-  }
   for (std::size_t first = 0, end = 0; first < bricks.size(); first = end) {
     while (end < bricks.size() &&
            (end - first < request.bricks_at_once || bricks[end].z / kLayerBricks == bricks[end - 1].z / kLayerBricks)) {
@@ -105,7 +109,7 @@ absl::StatusOr<MeshCache::Parts> Mesher::make(const ResidentScene& scene, const 
     }
     BrickBox layers{{0, 0, bricks[first].z / kLayerBricks * kLayerBricks}, {~0u, ~0u, ~0u}};
     if (end < bricks.size()) layers.high[2] = bricks[end].z / kLayerBricks * kLayerBricks;
-    ISOFIELD_RETURN_IF_ERROR(run(part_of(all, layers), static_cast<double>(first) / bricks.size(),
+    ISOFIELD_RETURN_IF_ERROR(run(part_of(all, PartSets(layers)), static_cast<double>(first) / bricks.size(),
                                  static_cast<double>(end) / bricks.size()));
   }
   return made;

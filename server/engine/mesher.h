@@ -14,6 +14,8 @@
 #include "engine/kernel_cache.h"
 #include "engine/mesh_cache.h"
 #include "engine/mesh_cells.h"
+#include "engine/mesh_lattice.h"
+#include "engine/mesh_part.h"
 #include "engine/mesh_request.h"
 #include "engine/resident_scene.h"
 
@@ -33,7 +35,14 @@ class Mesher {
   absl::Status cells(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
                      const Deliver& deliver);
 
+  // The bricks that `sets` states, whatever request.part says.
+  absl::StatusOr<PartMesh> part(const ResidentScene& scene, const MeshRequest& request, const PartSets& sets,
+                                const MeshCallbacks& callbacks);
+
  private:
+  absl::StatusOr<SurfaceBricks> find_bricks(const ResidentScene& scene, const MeshRequest& request,
+                                            const std::optional<blobtree::BrickSet>& within,
+                                            const MeshCallbacks& callbacks) const;
   absl::StatusOr<MeshCache::Parts> make(const ResidentScene& scene, const MeshRequest& request,
                                         const MeshCallbacks& callbacks, const Deliver& deliver);
 

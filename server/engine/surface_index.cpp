@@ -26,7 +26,7 @@ absl::StatusOr<std::shared_ptr<const SurfaceIndex>> make_index(const blobtree::T
   if (tape.support.empty()) return index;
   ISOFIELD_ASSIGN_OR_RETURN(
       const SurfaceBricks found,
-      surface_bricks(tape, lattice_request, request.max_cells / blobtree::kCellsPerBrick, cancelled));
+      surface_bricks(tape, lattice_request, std::nullopt, request.max_cells / blobtree::kCellsPerBrick, cancelled));
   const blobtree::Lattice& lattice = found.lattice;
   const double cell = lattice_request.cell_size;
   const blobtree::dvec3 size{lattice.cells[0] * cell, lattice.cells[1] * cell, lattice.cells[2] * cell};

@@ -21,9 +21,14 @@ struct Quad {
   uvec4 corners;   // the same as a triangle names them: number in its brick | which of the brick's coordinates are one less << 24
 };
 
-// The vertex of the patch that holds the quad's edge in the cell at offset -(du, dv) from the edge; as a corner too.
+// The cell at offset -(du, dv) from a quad's edge.
+ivec3 quad_cell(uvec3 at, uint axis, uint du, uint dv) {
+  return ivec3(at) - int(du) * ivec3(axis_vector((axis + 1u) % 3u)) - int(dv) * ivec3(axis_vector((axis + 2u) % 3u));
+}
+
+// The vertex of the patch that holds the quad's edge there; as a corner too.
 uvec2 quad_vertex(uint b, uvec3 at, uint axis, uint du, uint dv) {
-  ivec3 where = ivec3(at) - int(du) * ivec3(axis_vector((axis + 1u) % 3u)) - int(dv) * ivec3(axis_vector((axis + 2u) % 3u));
+  ivec3 where = quad_cell(at, axis, du, dv);
   CellRef c = cell_ref(b, where);
   if (c.brick == NO_BRICK) return uvec2(0u);  // unreachable: a cell with a crossing edge is never culled
   uint cell = cells_in[c.brick * CELLS_PER_BRICK + c.cell];
