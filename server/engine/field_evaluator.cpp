@@ -33,8 +33,8 @@ std::vector<PointJob> point_jobs(const blobtree::PointBins& bins) {
 // 0.07 s of gradient blends on two cores.
 constexpr std::uint64_t kSubmissionWork = 1u << 21;
 
-// Of a written kernel: points of a submission, which comes and goes while the device is at another and stays in the
-// processor's caches, and of a workgroup (shaders/tape_points.comp).
+// Of a written kernel: points of a submission, which where it must be copied comes and goes while the device is at
+// another and stays in the processor's caches, and of a workgroup (shaders/tape_points.comp).
 constexpr std::size_t kWrittenPoints = 1u << 15;
 constexpr std::uint32_t kWrittenGroup = 64;
 
@@ -104,8 +104,8 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
   ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer job_buffer, session.upload(std::span(jobs)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer order, session.upload(std::span(bins.order)));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer points, session.upload(xyz));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.scratch(out.size_bytes()));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer points, session.input(xyz));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.output(out));
   const KernelKind kind = KernelKind::of(scene.tape());
   // Points that were culled away have no job, and the field 0.
   std::uint64_t covered = 0;
@@ -137,13 +137,13 @@ absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
     const std::size_t part = std::min(kWrittenPoints, count - first);
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
-    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.upload(xyz.subspan(3 * first, 3 * part)));
-    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.scratch(part * components(quantity) * sizeof(float)));
+    const std::span<float> part_out = out.subspan(first * components(quantity), part * components(quantity));
+    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.input(xyz.subspan(3 * first, 3 * part)));
+    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(part_out));
     const auto last = static_cast<std::uint32_t>(part - 1);
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel, scene.bindings(points, {{6, &points}, {7, &results}}),
                                                          last, last / kWrittenGroup + 1));
-    ISOFIELD_RETURN_IF_ERROR(
-        session.download(results, out.subspan(first * components(quantity), part * components(quantity))));
+    ISOFIELD_RETURN_IF_ERROR(session.download(results, part_out));
     if (running) ISOFIELD_RETURN_IF_ERROR(running->session.wait());
     ISOFIELD_RETURN_IF_ERROR(session.submit());
     if (running) running->session.collect();

@@ -187,6 +187,29 @@ TEST(WrittenKernels, TakeLargeBatches) {
   EXPECT_EQ(cut.code(), absl::StatusCode::kCancelled);
 }
 
+TEST(WrittenKernels, ReadAndWriteWhereverTheArraysLie) {
+  const auto scene = resident(two_spheres(0.8));
+  WrittenKernels written(device(), {.hot_points = 1});
+  ASSERT_TRUE(make_hot(written, *scene));
+  constexpr std::size_t kCount = 50'001, kRoom = 8;
+  const std::vector<float> xyz = random_points(5, kCount);
+  for (WrittenKernels* const kernels_or_none : {&written, static_cast<WrittenKernels*>(nullptr)}) {
+    const std::vector<float> expected = evaluate(*scene, xyz, Quantity::kValueAndGradient, kernels_or_none);
+    engine::FieldEvaluator fields(device(), kernels(), kernels_or_none);
+    // Of floats into arrays that lie at multiples of 16 bytes.
+    for (const auto& [in, out] : {std::pair{0, 0}, {4, 4}, {1, 4}, {4, 3}, {2, 1}}) {
+      std::vector<float> points(in), results(4 * kCount + 2 * kRoom, -7);
+      points.insert(points.end(), xyz.begin(), xyz.end());
+      const absl::Status s = fields.evaluate(*scene, std::span(points).subspan(in), Quantity::kValueAndGradient,
+                                             std::span(results).subspan(out, 4 * kCount));
+      ASSERT_TRUE(s.ok()) << s;
+      EXPECT_TRUE(std::equal(expected.begin(), expected.end(), results.begin() + out)) << in << ", " << out;
+      EXPECT_EQ(std::count(results.begin(), results.begin() + out, -7), out) << "before the results";
+      EXPECT_EQ(std::count(results.begin() + out + 4 * kCount, results.end(), -7), 2 * kRoom - out) << "behind them";
+    }
+  }
+}
+
 TEST(WrittenKernels, NeverOfLongTapesNorWhereTheyAreOff) {
   WrittenKernels written(device(), {}), off(device(), {.is_on = false, .hot_points = 0});
   EXPECT_FALSE(make_hot(off, *resident(two_spheres(0.5))));
