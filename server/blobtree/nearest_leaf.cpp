@@ -31,6 +31,7 @@ std::vector<std::uint32_t> nearest_leaves(const Tape& tape, std::span<const floa
   std::vector<std::uint32_t> leaves(xyz.size() / 3, kNoLeaf);
   const PointBins bins = bin_points(tape, xyz);
   for (const PointGroup& g : bins.groups) {
+    if (g.tape_count == 0) continue;
     const std::span<const Instruction> code(bins.code.data() + g.tape_begin, g.tape_count);
     for (std::uint32_t n = g.first; n < g.first + g.count; ++n) {
       const std::size_t place = bins.order.empty() ? n : bins.order[n];

@@ -18,7 +18,7 @@ class Binner {
 
   PointBins run() {
     const auto count = static_cast<std::uint32_t>(xyz_.size() / 3);
-    if (count == 0 || tape_.code.empty()) return std::move(bins_);
+    if (count == 0) return std::move(bins_);
     if (tape_.code.size() <= 2 * kShortTape) {
       bins_.code = tape_.code;
       bins_.groups.push_back({0, count, 0, static_cast<std::uint32_t>(tape_.code.size())});
@@ -66,8 +66,8 @@ class Binner {
     const std::size_t begin = parent.begin + parent.count;
     arena_.resize(begin);
     const Box box = box_of(range);
-    if (pruner_.prune(arena_, parent.begin, parent.count, box, arena_).is_zero) return;
-    const std::size_t count = arena_.size() - begin;
+    const bool is_zero = pruner_.prune(arena_, parent.begin, parent.count, box, arena_).is_zero;
+    const std::size_t count = is_zero ? 0 : arena_.size() - begin;
     if (count <= kShortTape || range.count <= kSmallGroup || !(box.min != box.max)) {
       bins_.groups.push_back(
           {range.first, range.count, static_cast<std::uint32_t>(bins_.code.size()), static_cast<std::uint32_t>(count)});

@@ -12,14 +12,13 @@ namespace isofield::blobtree {
 
 struct PointGroup {
   std::uint32_t first, count;  // in PointBins::order
-  std::uint32_t tape_begin, tape_count;
+  std::uint32_t tape_begin, tape_count;  // 0 instructions: the field is 0
 };
 
 struct PointBins {
   // Places in the batch; empty: the batch as it is, in one group.
   std::vector<std::uint32_t> order;
-  // Points in no group have the field 0.
-  std::vector<PointGroup> groups;
+  std::vector<PointGroup> groups;  // that hold every point once
   std::vector<Instruction> code;
 };
 

@@ -14,20 +14,9 @@ namespace {
 
 using blobtree::Brick;
 
-// Points of a workgroup: a multiple of points.comp's local size, small enough to spread over the device.
-constexpr std::uint32_t kPointsPerGroup = 256;
-
+// What a subgroup of shaders/points.comp takes, and the invocations of a workgroup.
 using PointJob = std::array<std::uint32_t, 4>;
-
-std::vector<PointJob> point_jobs(const blobtree::PointBins& bins) {
-  std::vector<PointJob> jobs;
-  for (const blobtree::PointGroup& g : bins.groups) {
-    for (std::uint32_t at = 0; at < g.count; at += kPointsPerGroup) {
-      jobs.push_back({g.tape_begin, g.tape_count, g.first + at, std::min(kPointsPerGroup, g.count - at)});
-    }
-  }
-  return jobs;
-}
+constexpr std::uint32_t kPointsPerGroup = 64;
 
 // Instructions times points of one submission: what a cancelled request still waits for, and others with it. About
 // 0.07 s of gradient blends on two cores.
@@ -92,37 +81,36 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
       written_ ? written_->find(scene, quantity == Quantity::kValueAndGradient, count) : nullptr;
   if (written) return evaluate_written(*written, scene, xyz, quantity, out, cancelled, std::move(submission));
   blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
-  std::vector<PointJob> jobs = point_jobs(bins);
-  if (jobs.empty()) {
-    std::fill(out.begin(), out.end(), 0.0f);
-    return absl::OkStatus();
-  }
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
   TapeWindows tapes(device_, scene, std::move(bins.code));
+  const std::uint32_t points_per_job = device_.description().subgroup_size;
+  std::vector<PointJob> jobs;
   std::vector<std::uint32_t> windows;
-  for (PointJob& job : jobs) windows.push_back(tapes.add(job[0], job[1]));
+  for (blobtree::PointGroup& g : bins.groups) {
+    const std::uint32_t window = tapes.add(g.tape_begin, g.tape_count), last = g.first + g.count - 1;
+    for (std::uint32_t at = g.first; at <= last; at += points_per_job) {
+      jobs.push_back({g.tape_begin, g.tape_count, at, last});
+      windows.push_back(window);
+    }
+  }
   ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer job_buffer, session.upload(std::span(jobs)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer order, session.upload(std::span(bins.order)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer points, session.input(xyz));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.output(out));
   const KernelKind kind = KernelKind::of(scene.tape());
-  // Points that were culled away have no job, and the field 0.
-  std::uint64_t covered = 0;
-  for (const blobtree::PointGroup& g : bins.groups) covered += g.count;
-  if (covered < count) {
-    session.commands().fill_zero(results);
-    session.commands().barrier();
-  }
+  const std::uint32_t jobs_per_group = kPointsPerGroup / points_per_job;
   ISOFIELD_RETURN_IF_ERROR(submit_in_pieces(
-      session, windows, cancelled, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * jobs[i][3]; },
+      session, windows, cancelled, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * points_per_job; },
       [&](std::size_t first, std::uint32_t count, std::uint32_t window) -> absl::Status {
-        const std::array<std::uint32_t, 2> constants{static_cast<std::uint32_t>(first), bins.order.empty() ? 0u : 1u};
+        const std::array<std::uint32_t, 3> constants{static_cast<std::uint32_t>(first),
+                                                     static_cast<std::uint32_t>(first + count - 1),
+                                                     bins.order.empty() ? 0u : 1u};
         ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
                                   kernels_.get(points_shader(quantity), tapes.kind(kind, window)));
         return session.commands().dispatch(
             *kernel, tapes.bindings(window, {{4, &job_buffer}, {5, &order}, {6, &points}, {7, &results}}), constants,
-            count);
+            (count + jobs_per_group - 1) / jobs_per_group);
       }));
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
   return session.run();

@@ -23,7 +23,7 @@ dvec3 point_at(const std::vector<float>& xyz, std::size_t i) {
   return {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
 }
 
-// Every point is in exactly one group, whose tape gives its field, or in none and has the field 0.
+// Every point is in exactly one group, whose tape gives its field.
 void expect_covers(const Scene& scene, const std::vector<float>& xyz) {
   const Tape tape = compile_or_die(scene);
   const reference::Evaluator evaluator(scene);
@@ -42,16 +42,12 @@ void expect_covers(const Scene& scene, const std::vector<float>& xyz) {
       ++groups_of[point];
       if (point % 5 == 0) {
         const dvec3 p = point_at(xyz, point);
-        ASSERT_NEAR(interpreter.evaluate(code, p).field.v, evaluator.value(p), 1e-9);
+        const double f = code.empty() ? 0 : interpreter.evaluate(code, p).field.v;
+        ASSERT_NEAR(f, evaluator.value(p), 1e-9);
       }
     }
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    ASSERT_LE(groups_of[i], 1);
-    if (groups_of[i] == 0) {
-      ASSERT_EQ(evaluator.value(point_at(xyz, i)), 0);
-    }
-  }
+  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(groups_of[i], 1);
 }
 
 TEST(PointBins, CoverRandomBatches) {
