@@ -8,22 +8,25 @@
 
 layout(local_size_x = 64) in;
 
-// tape begin, tape count (0: the field is 0), first place in `order`, last (engine/field_evaluator.cpp)
+// tape begin, tape count (0: the field is 0), first point, last (engine/field_evaluator.cpp)
 layout(std430, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
-layout(std430, binding = 5) readonly buffer Order { uint order[]; };
+// With their places in the batch as bits: read together, where points in another order are far from each other.
+layout(std430, binding = 5) readonly buffer Sorted { vec4 sorted[]; };
 layout(std430, binding = 6) readonly buffer Points { float points[]; };
 
 layout(push_constant) uniform Constants {
   uint first_job;
   uint last_job;    // surplus subgroups repeat it
-  uint is_ordered;  // 0: places are those of the batch
+  uint is_sorted;   // 0: points are those of the batch
 };
 
 void main() {
   uvec4 job = jobs[min(first_job + gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID, last_job)];
   uint n = min(job.z + gl_SubgroupInvocationID, job.w);  // surplus invocations repeat the last point
-  uint place = order[n * is_ordered];
-  place = is_ordered != 0u ? place : n;
-  vec3 p = vec3(points[3u * place], points[3u * place + 1u], points[3u * place + 2u]);
+  vec4 placed = sorted[is_sorted != 0u ? n : 0u];
+  uint at = is_sorted != 0u ? 0u : 3u * n;
+  vec3 p = vec3(points[at], points[at + 1u], points[at + 2u]);
+  uint place = is_sorted != 0u ? floatBitsToUint(placed.w) : n;
+  p = is_sorted != 0u ? placed.xyz : p;
   write_result(place, select_field(evaluate(p, job.x, job.y), zero_field(), job.y == 0u));
 }

@@ -41,6 +41,9 @@ class Culler {
       if (list_.bricks.size() > request_.max_bricks) {
         return absl::ResourceExhaustedError(absl::StrCat("more than ", request_.max_bricks, " bricks"));
       }
+      if (list_.code.size() > request_.max_instructions) {
+        return absl::ResourceExhaustedError(absl::StrCat("more than ", request_.max_instructions, " instructions"));
+      }
     }
     return std::move(list_);
   }
@@ -58,8 +61,10 @@ class Culler {
   };
 
   Box box_of(const Cell& cell) const {
-    return request_.lattice.box(cell.x, cell.y, cell.z,
-                                static_cast<double>(std::uint64_t{1} << cell.level) * kBrickCells);
+    Box box =
+        request_.lattice.box(cell.x, cell.y, cell.z, static_cast<double>(std::uint64_t{1} << cell.level) * kBrickCells);
+    const dvec3 margin{request_.margin, request_.margin, request_.margin};
+    return {box.min - margin, box.max + margin};
   }
 
   bool is_kept(const Cell& cell, const Pruned& p) const {

@@ -57,13 +57,15 @@ struct CullRequest {
   double iso = 0.5;
   // kSurface: what lies at the lattice's boundary counts as outside, so that the surface closes there.
   bool is_capped = false;
-  std::uint64_t max_bricks = ~0ull;
+  double margin = 0;  // model units: tapes hold as far around their bricks, too
+  std::uint64_t max_bricks = ~0ull, max_instructions = ~0ull;
   // Asked now and then; true gives up with CANCELLED.
   std::function<bool()> cancelled;
 };
 
-// RESOURCE_EXHAUSTED: more than max_bricks bricks. Descends from the whole lattice to its bricks through cells of a
-// hierarchy, each pruning its parent's tape, so that the cost follows the bricks kept and not the box.
+// RESOURCE_EXHAUSTED: more than max_bricks bricks, or tapes of more than max_instructions. Descends from the whole
+// lattice to its bricks through cells of a hierarchy, each pruning its parent's tape, so that the cost follows the
+// bricks kept and not the box.
 absl::StatusOr<BrickList> cull(const Tape& tape, const CullRequest& request);
 
 // Bricks on whose tapes that cull() makes the leaf may be: where its field may differ from 0. Positive leaves.

@@ -10,6 +10,12 @@
 
 namespace isofield::blobtree {
 
+// Of a batch: with its place there. What reads points in another order than the batch's finds these side by side.
+struct PlacedPoint {
+  float x, y, z;
+  std::uint32_t place;
+};
+
 struct PointGroup {
   std::uint32_t first, count;  // in PointBins::order
   std::uint32_t tape_begin, tape_count;  // 0 instructions: the field is 0

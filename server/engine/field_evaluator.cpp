@@ -80,36 +80,74 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
   const gpu::Pipeline* const written =
       written_ ? written_->find(scene, quantity == Quantity::kValueAndGradient, count) : nullptr;
   if (written) return evaluate_written(*written, scene, xyz, quantity, out, cancelled, std::move(submission));
+  ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, cancelled));
+  Sorted sorted;
+  if (index) {
+    blobtree::PointGrid::Sorted by_brick = index->grid().sort(xyz);
+    sorted.points = std::move(by_brick.points);
+    const std::vector<std::uint32_t>& starts = by_brick.starts;
+    const std::size_t bricks = index->tapes().size();
+    for (std::size_t b = 0; b < bricks; ++b) {
+      const PointIndex::Tape& tape = index->tapes()[b];
+      if (starts[b] == starts[b + 1]) continue;
+      sorted.groups.push_back({starts[b], starts[b + 1] - starts[b], tape.begin, tape.count, tape.window});
+    }
+    if (starts[bricks] < count) {
+      sorted.groups.push_back({starts[bricks], starts[bricks + 1] - starts[bricks], 0, 0, 0});
+    }
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
+    return evaluate_sorted(session, scene, index->windows(), sorted, xyz, quantity, out, cancelled);
+  }
   blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
-  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
   TapeWindows tapes(device_, scene, std::move(bins.code));
-  const std::uint32_t points_per_job = device_.description().subgroup_size;
-  std::vector<PointJob> jobs;
-  std::vector<std::uint32_t> windows;
-  for (blobtree::PointGroup& g : bins.groups) {
-    const std::uint32_t window = tapes.add(g.tape_begin, g.tape_count), last = g.first + g.count - 1;
-    for (std::uint32_t at = g.first; at <= last; at += points_per_job) {
-      jobs.push_back({g.tape_begin, g.tape_count, at, last});
-      windows.push_back(window);
+  if (!bins.order.empty()) {
+    sorted.points = std::make_unique_for_overwrite<blobtree::PlacedPoint[]>(count);
+    for (std::size_t n = 0; n < count; ++n) {
+      const float* p = &xyz[3 * std::size_t{bins.order[n]}];
+      sorted.points[n] = {p[0], p[1], p[2], bins.order[n]};
     }
   }
+  for (const blobtree::PointGroup& g : bins.groups) {
+    std::uint32_t begin = g.tape_begin;
+    const std::uint32_t window = tapes.add(begin, g.tape_count);
+    sorted.groups.push_back({g.first, g.count, begin, g.tape_count, window});
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
   ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
+  return evaluate_sorted(session, scene, tapes, sorted, xyz, quantity, out, cancelled);
+}
+
+absl::Status FieldEvaluator::evaluate_sorted(Session& session, const ResidentScene& scene, const TapeWindows& tapes,
+                                             const Sorted& sorted, std::span<const float> xyz, Quantity quantity,
+                                             std::span<float> out, const Cancelled& cancelled) {
+  const std::uint32_t points_per_job = device_.description().subgroup_size;
+  const std::uint32_t jobs_per_group = kPointsPerGroup / points_per_job;
+  std::vector<PointJob> jobs;
+  std::vector<std::uint32_t> windows;
+  jobs.reserve(xyz.size() / 3 / points_per_job + sorted.groups.size());
+  windows.reserve(jobs.capacity());
+  for (const Sorted::Group& g : sorted.groups) {
+    const std::uint32_t last = g.first + g.count - 1;
+    for (std::uint32_t at = g.first; at <= last; at += points_per_job) {
+      jobs.push_back({g.tape_begin, g.tape_count, at, last});
+      windows.push_back(g.window);
+    }
+  }
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer job_buffer, session.upload(std::span(jobs)));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer order, session.upload(std::span(bins.order)));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer points, session.input(xyz));
+  const auto* const placed = reinterpret_cast<const float*>(sorted.points.get());
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer points,
+                            session.input(sorted.points ? std::span(placed, 4 * (xyz.size() / 3)) : xyz));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.output(out));
   const KernelKind kind = KernelKind::of(scene.tape());
-  const std::uint32_t jobs_per_group = kPointsPerGroup / points_per_job;
   ISOFIELD_RETURN_IF_ERROR(submit_in_pieces(
       session, windows, cancelled, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * points_per_job; },
       [&](std::size_t first, std::uint32_t count, std::uint32_t window) -> absl::Status {
-        const std::array<std::uint32_t, 3> constants{static_cast<std::uint32_t>(first),
-                                                     static_cast<std::uint32_t>(first + count - 1),
-                                                     bins.order.empty() ? 0u : 1u};
+        const std::array<std::uint32_t, 3> constants{
+            static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first + count - 1), sorted.points ? 1u : 0u};
         ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
                                   kernels_.get(points_shader(quantity), tapes.kind(kind, window)));
         return session.commands().dispatch(
-            *kernel, tapes.bindings(window, {{4, &job_buffer}, {5, &order}, {6, &points}, {7, &results}}), constants,
+            *kernel, tapes.bindings(window, {{4, &job_buffer}, {5, &points}, {6, &points}, {7, &results}}), constants,
             (count + jobs_per_group - 1) / jobs_per_group);
       }));
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));

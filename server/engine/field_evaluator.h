@@ -4,10 +4,13 @@
 #include <absl/status/status.h>
 
 #include <functional>
+#include <memory>
 #include <span>
+#include <vector>
 
 #include "blobtree/lattice.h"
 #include "engine/kernel_cache.h"
+#include "engine/point_index.h"
 #include "engine/resident_scene.h"
 #include "engine/written_kernels.h"
 #include "gpu/turns.h"
@@ -51,9 +54,22 @@ class FieldEvaluator {
                                 Quantity quantity, std::span<float> out, const Cancelled& cancelled,
                                 Submission submission);
 
+  // Points of a batch by tape.
+  struct Sorted {
+    struct Group {
+      std::uint32_t first, count, tape_begin, tape_count, window;
+    };
+    std::unique_ptr<blobtree::PlacedPoint[]> points;  // null: as the batch has them
+    std::vector<Group> groups;
+  };
+  absl::Status evaluate_sorted(Session& session, const ResidentScene& scene, const TapeWindows& tapes,
+                               const Sorted& sorted, std::span<const float> xyz, Quantity quantity,
+                               std::span<float> out, const Cancelled& cancelled);
+
   gpu::Device& device_;
   KernelCache& kernels_;
   WrittenKernels* written_;
+  PointIndexCache indices_;
 };
 
 }  // namespace isofield::engine

@@ -207,6 +207,32 @@ TEST(FieldOnDevice, EditedOpeningsShareTheLeaves) {
   EXPECT_FALSE(blobtree::edit_blends((*after)->tape(), scene, *wrong, {}).ok());
 }
 
+// A scene that is asked often has its tapes on the device.
+TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
+  for (const std::uint64_t seed : {3u, 8u, 21u}) {
+    const engine::SceneLease lease =
+        resident(test_support::random_scene(seed, {.nodes = 80, .cuts = seed == 21, .all_operators = false}));
+    ASSERT_GT(lease->tape().code.size(), 12u);
+    const std::vector<float> xyz = random_points(seed, 150'000, 2);
+    // An evaluator that has seen nothing, and so sorts the first batches by themselves.
+    engine::FieldEvaluator fresh(device(), kernels());
+    std::vector<float> first(4 * 150'000), out(first.size());
+    for (int batch = 0; batch < 6; ++batch) {
+      std::vector<float>& to = batch == 0 ? first : out;
+      const absl::Status s = fresh.evaluate(*lease, xyz, Quantity::kValueAndGradient, to);
+      ASSERT_TRUE(s.ok()) << s;
+      if (batch == 0) continue;
+      ASSERT_EQ(std::memcmp(first.data(), out.data(), sizeof(float) * out.size()), 0) << "batch " << batch;
+    }
+    // Smaller ones find it, too, or had better not.
+    for (const std::size_t count : {7u, 3000u, 40'000u}) {
+      std::vector<float> some(4 * count);
+      ASSERT_TRUE(fresh.evaluate(*lease, std::span(xyz).first(3 * count), Quantity::kValueAndGradient, some).ok());
+      EXPECT_EQ(std::memcmp(first.data(), some.data(), sizeof(float) * some.size()), 0) << count;
+    }
+  }
+}
+
 // Primitives that all overlap leave nothing to cull: the work comes in pieces, between which others run.
 TEST(FieldOnDevice, ALargeBatchIsCutAndCanBeCancelled) {
   v1::Scene scene;

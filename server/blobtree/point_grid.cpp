@@ -1,0 +1,112 @@
+#include "blobtree/point_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace isofield::blobtree {
+namespace {
+
+// Bricks along the longest edge: some tens a primitive, so that tapes hold little more than what a point needs.
+constexpr double kBricksAlongPerRoot = 3.2, kLeastAlong = 16, kMostAlong = 64;
+// Of a brick, by which the boxes that tapes are pruned for overlap: float32 finds a point's brick within this.
+constexpr double kRoom = 1e-3;
+// Points that are worth a thread.
+constexpr std::size_t kPointsPerThread = 1u << 17;
+
+// Calls work(thread) on so many threads.
+template <class Work>
+void on_threads(std::size_t count, const Work& work) {
+  std::vector<std::thread> others;
+  for (std::size_t t = 1; t < count; ++t) others.emplace_back([&work, t] { work(t); });
+  work(0);
+  for (std::thread& t : others) t.join();
+}
+
+}  // namespace
+
+absl::StatusOr<PointGrid> PointGrid::make(const Tape& tape, const std::function<bool()>& cancelled) {
+  const Box& box = tape.support;
+  const double longest =
+      box.empty() ? 0 : std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+  if (!(longest > 0 && std::isfinite(longest))) {
+    return absl::FailedPreconditionError("the scene's support is empty or has no end");
+  }
+  const double along =
+      std::clamp(kBricksAlongPerRoot * std::cbrt(static_cast<double>(tape.leaves.size())), kLeastAlong, kMostAlong);
+  // Of float32 numbers, as sort() computes with.
+  const auto step = static_cast<double>(static_cast<float>(longest / along * 1.0001));
+  PointGrid grid;
+  grid.per_step_ = static_cast<float>(1 / step);
+  CullRequest request{
+      .keep = Keep::kSupport, .margin = kRoom * step, .max_instructions = kMostInstructions, .cancelled = cancelled};
+  request.lattice.spacing = dvec3{step, step, step} * (1.0 / kBrickCells);
+  const auto set_axis = [&](int axis, double low, double high, double& origin) {
+    grid.origin_[axis] = std::nextafter(static_cast<float>(low), -std::numeric_limits<float>::infinity());
+    origin = static_cast<double>(grid.origin_[axis]);
+    grid.counts_[axis] = static_cast<std::uint32_t>((high - origin) / step) + 1;
+    request.lattice.cells[axis] = grid.counts_[axis] * kBrickCells;
+  };
+  set_axis(0, box.min.x, box.max.x, request.lattice.origin.x);
+  set_axis(1, box.min.y, box.max.y, request.lattice.origin.y);
+  set_axis(2, box.min.z, box.max.z, request.lattice.origin.z);
+  absl::StatusOr<BrickList> list = cull(tape, request);
+  if (!list.ok()) return list.status();
+  grid.list_ = *std::move(list);
+  const auto none = static_cast<std::uint32_t>(grid.list_.bricks.size());
+  grid.places_.assign(std::size_t{grid.counts_[0]} * grid.counts_[1] * grid.counts_[2], none);
+  for (std::uint32_t b = 0; b < none; ++b) {
+    const Brick& at = grid.list_.bricks[b];
+    grid.places_[at.x + std::size_t{grid.counts_[0]} * (at.y + std::size_t{grid.counts_[1]} * at.z)] = b;
+  }
+  return grid;
+}
+
+std::uint32_t PointGrid::brick_at(const float* p) const {
+  std::uint32_t at[3];
+  bool is_within = true;
+  for (int a = 0; a < 3; ++a) {
+    const float t = (p[a] - origin_[a]) * per_step_;
+    is_within = is_within && t >= 0 && t < static_cast<float>(counts_[a]);
+    at[a] = is_within ? static_cast<std::uint32_t>(t) : 0;
+  }
+  if (!is_within) return static_cast<std::uint32_t>(list_.bricks.size());
+  return places_[at[0] + std::size_t{counts_[0]} * (at[1] + std::size_t{counts_[1]} * at[2])];
+}
+
+PointGrid::Sorted PointGrid::sort(std::span<const float> xyz) const {
+  const std::size_t count = xyz.size() / 3, bins = list_.bricks.size() + 1;
+  const std::size_t threads =
+      std::clamp<std::size_t>(count / kPointsPerThread, 1, std::max(std::thread::hardware_concurrency(), 1u));
+  const auto first_of = [&](std::size_t thread) { return count * thread / threads; };
+  const auto bin_of = std::make_unique_for_overwrite<std::uint32_t[]>(count);
+  // How many points of each bin a thread has, and then where it puts the next one.
+  std::vector<std::vector<std::uint32_t>> next(threads);
+  on_threads(threads, [&](std::size_t t) {
+    next[t].assign(bins, 0);
+    for (std::size_t i = first_of(t); i < first_of(t + 1); ++i) ++next[t][bin_of[i] = brick_at(&xyz[3 * i])];
+  });
+  Sorted sorted;
+  sorted.starts.reserve(bins + 1);
+  std::uint32_t start = 0;
+  for (std::size_t b = 0; b < bins; ++b) {
+    sorted.starts.push_back(start);
+    for (std::vector<std::uint32_t>& n : next) {
+      const std::uint32_t here = n[b];
+      n[b] = start;
+      start += here;
+    }
+  }
+  sorted.starts.push_back(start);
+  sorted.points = std::make_unique_for_overwrite<PlacedPoint[]>(count);
+  on_threads(threads, [&](std::size_t t) {
+    for (std::size_t i = first_of(t); i < first_of(t + 1); ++i) {
+      const float* p = &xyz[3 * i];
+      sorted.points[next[t][bin_of[i]]++] = {p[0], p[1], p[2], static_cast<std::uint32_t>(i)};
+    }
+  });
+  return sorted;
+}
+
+}  // namespace isofield::blobtree

@@ -1,0 +1,48 @@
+// A grid over a scene's support whose bricks each have their pruned tape, made once for many batches of points: a batch
+// is sorted by brick in two passes, where bin_points() prunes anew for each.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "blobtree/lattice.h"
+#include "blobtree/point_bins.h"
+#include "blobtree/tape.h"
+
+namespace isofield::blobtree {
+
+// Immutable once made: any number of threads may sort at once.
+class PointGrid {
+ public:
+  // FAILED_PRECONDITION: the support is empty or has no end. RESOURCE_EXHAUSTED: the bricks' tapes take more than
+  // kMostInstructions, since most primitives overlap. CANCELLED.
+  static absl::StatusOr<PointGrid> make(const Tape& tape, const std::function<bool()>& cancelled);
+  static constexpr std::size_t kMostInstructions = 1u << 21;
+
+  // Bricks where the field may differ from 0.
+  const BrickList& bricks() const { return list_; }
+
+  struct Sorted {
+    std::unique_ptr<PlacedPoint[]> points;  // by brick
+    std::vector<std::uint32_t> starts;      // where each brick's begin, those in no brick's, and the end
+  };
+  // `xyz` holds 3 finite numbers a point. Large batches are sorted by several threads.
+  Sorted sort(std::span<const float> xyz) const;
+
+ private:
+  std::uint32_t brick_at(const float* p) const;
+
+  std::array<float, 3> origin_{};
+  float per_step_ = 0;
+  std::array<std::uint32_t, 3> counts_{};
+  std::vector<std::uint32_t> places_;  // of the grid's bricks in list_, x fastest; list_'s size: none
+  BrickList list_;
+};
+
+}  // namespace isofield::blobtree

@@ -1,0 +1,93 @@
+#include "engine/point_index.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/status_macros.h"
+
+namespace isofield::engine {
+namespace {
+
+// Points asked of a scene before it is given an index: to sort as many without one takes as long as to make one.
+constexpr std::uint64_t kHotPoints = 1u << 19;
+// Bricks a point of a batch beyond which passing over them takes longer than sorting the batch by itself.
+constexpr std::uint64_t kBricksPerPoint = 4;
+// Tapes of fewer instructions are run whole (blobtree/point_bins.cpp).
+constexpr std::size_t kShortTape = 12;
+
+constexpr std::size_t kMostEntries = 64;
+constexpr std::size_t kMostInstructions = 4 * blobtree::PointGrid::kMostInstructions;  // that are kept
+
+}  // namespace
+
+PointIndex::PointIndex(gpu::Device& device, const ResidentScene& scene, blobtree::PointGrid grid)
+    : grid_(std::move(grid)), windows_(device, scene, grid_.bricks().code) {
+  tapes_.reserve(grid_.bricks().bricks.size());
+  for (const blobtree::Brick& b : grid_.bricks().bricks) {
+    Tape tape{b.tape_begin, b.tape_count, 0};
+    tape.window = windows_.add(tape.begin, tape.count);
+    tapes_.push_back(tape);
+  }
+}
+
+absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndex::make(gpu::Device& device, const ResidentScene& scene,
+                                                                   const std::function<bool()>& cancelled) {
+  ISOFIELD_ASSIGN_OR_RETURN(blobtree::PointGrid grid, blobtree::PointGrid::make(scene.tape(), cancelled));
+  const std::shared_ptr<PointIndex> index(new PointIndex(device, scene, std::move(grid)));
+  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device));
+  ISOFIELD_RETURN_IF_ERROR(index->windows_.upload(session));
+  ISOFIELD_RETURN_IF_ERROR(session.run());
+  return index;
+}
+
+PointIndexCache::Entry& PointIndexCache::entry(const ResidentScene& scene) {
+  std::erase_if(entries_, [](const Entry& e) { return e.scene.expired(); });
+  const auto self = scene.weak_from_this();
+  const auto it = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
+    return !e.scene.owner_before(self) && !self.owner_before(e.scene);
+  });
+  if (it == entries_.end()) {
+    entries_.push_front({self});
+  } else {
+    std::rotate(entries_.begin(), it, it + 1);
+  }
+  return entries_.front();
+}
+
+void PointIndexCache::trim() {
+  std::size_t instructions = 0, kept = 0;
+  for (const Entry& e : entries_) {
+    instructions += e.index ? e.index->grid().bricks().code.size() : 0;
+    if (kept == kMostEntries || instructions > kMostInstructions) break;
+    ++kept;
+  }
+  entries_.resize(kept);
+}
+
+absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndexCache::find(gpu::Device& device, const ResidentScene& scene,
+                                                                        std::uint64_t points,
+                                                                        const std::function<bool()>& cancelled) {
+  if (scene.tape().code.size() <= kShortTape) return nullptr;
+  const auto fits = [&](const PointIndex& index) { return index.tapes().size() <= kBricksPerPoint * points; };
+  {
+    const std::lock_guard lock(mutex_);
+    Entry& e = entry(scene);
+    e.points += points;
+    if (e.index) return fits(*e.index) ? e.index : nullptr;
+    if (e.is_tried || e.points < kHotPoints) return nullptr;
+    e.is_tried = true;  // others go on without one meanwhile
+  }
+  absl::StatusOr<std::shared_ptr<const PointIndex>> made = PointIndex::make(device, scene, cancelled);
+  const std::lock_guard lock(mutex_);
+  Entry& e = entry(scene);
+  if (absl::IsCancelled(made.status())) {
+    e.is_tried = false;
+    return made.status();
+  }
+  if (!made.ok()) return nullptr;
+  e.index = *made;
+  trim();
+  return fits(**made) ? *made : nullptr;
+}
+
+}  // namespace isofield::engine

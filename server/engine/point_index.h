@@ -1,0 +1,63 @@
+// The tapes of a resident scene's bricks, on the device, for the batches of points that are asked of it.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "blobtree/point_grid.h"
+#include "engine/resident_scene.h"
+#include "engine/tape_windows.h"
+
+namespace isofield::engine {
+
+// Immutable. The scene outlives it.
+class PointIndex {
+ public:
+  static absl::StatusOr<std::shared_ptr<const PointIndex>> make(gpu::Device& device, const ResidentScene& scene,
+                                                                const std::function<bool()>& cancelled);
+
+  struct Tape {
+    std::uint32_t begin, count, window;  // as of TapeWindows::add
+  };
+  const blobtree::PointGrid& grid() const { return grid_; }
+  // Of the grid's bricks.
+  const std::vector<Tape>& tapes() const { return tapes_; }
+  const TapeWindows& windows() const { return windows_; }
+
+ private:
+  PointIndex(gpu::Device& device, const ResidentScene& scene, blobtree::PointGrid grid);
+
+  blobtree::PointGrid grid_;
+  TapeWindows windows_;
+  std::vector<Tape> tapes_;
+};
+
+// Keeps the indices of the scenes that are asked most. Thread-safe.
+class PointIndexCache {
+ public:
+  // Null: the batch had better be sorted by itself, since few points have been asked of the scene or are in the batch,
+  // or the scene has no index. `points`: how many are to be evaluated now.
+  absl::StatusOr<std::shared_ptr<const PointIndex>> find(gpu::Device& device, const ResidentScene& scene,
+                                                         std::uint64_t points, const std::function<bool()>& cancelled);
+
+ private:
+  struct Entry {
+    std::weak_ptr<const ResidentScene> scene;
+    std::uint64_t points = 0;
+    bool is_tried = false;
+    std::shared_ptr<const PointIndex> index;
+  };
+  Entry& entry(const ResidentScene& scene);
+  void trim();
+
+  std::mutex mutex_;
+  std::deque<Entry> entries_;  // the last used first
+};
+
+}  // namespace isofield::engine

@@ -1,0 +1,107 @@
+#include "blobtree/point_grid.h"
+
+#include <gtest/gtest.h>
+
+#include "reference/evaluator.h"
+#include "support/random_scene.h"
+#include "support/scene_text.h"
+#include "support/tape_interpreter.h"
+
+namespace isofield::blobtree {
+namespace {
+
+using test_support::compile_or_die;
+using test_support::Random;
+using test_support::read_or_die;
+using test_support::TapeInterpreter;
+
+// Points about the scene's support, and on the planes between the grid's bricks as nearly as can be.
+std::vector<float> points_about(const Box& box, Random& random, std::size_t count) {
+  std::vector<float> xyz;
+  const auto along = [&](double low, double high) {
+    const double t = random.chance(0.2) ? random.integer(0, 64) / 64.0 : random.number(-0.1, 1.1);
+    xyz.push_back(static_cast<float>(low + t * (high - low)));
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    along(box.min.x, box.max.x);
+    along(box.min.y, box.max.y);
+    along(box.min.z, box.max.z);
+  }
+  return xyz;
+}
+
+TEST(PointGrid, SortsEveryPointToATapeThatGivesItsField) {
+  int grids = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const Scene scene = read_or_die(test_support::random_scene(seed, {.nodes = 40}));
+    const Tape tape = compile_or_die(scene);
+    const auto grid = PointGrid::make(tape, {});
+    if (!grid.ok()) {
+      EXPECT_EQ(grid.status().code(), absl::StatusCode::kFailedPrecondition) << grid.status();
+      continue;
+    }
+    ++grids;
+    const reference::Evaluator evaluator(scene);
+    TapeInterpreter interpreter(tape);
+    Random random(seed);
+    const std::vector<float> xyz = points_about(tape.support, random, 3000);
+    const PointGrid::Sorted sorted = grid->sort(xyz);
+    const BrickList& list = grid->bricks();
+    ASSERT_EQ(sorted.starts.size(), list.bricks.size() + 2);
+    std::vector<int> seen(3000);
+    for (std::size_t b = 0; b <= list.bricks.size(); ++b) {
+      for (std::uint32_t n = sorted.starts[b]; n < sorted.starts[b + 1]; ++n) {
+        const PlacedPoint& p = sorted.points[n];
+        ++seen[p.place];
+        ASSERT_EQ(std::memcmp(&xyz[3 * p.place], &p, 3 * sizeof(float)), 0);
+        const dvec3 at{p.x, p.y, p.z};
+        double f = 0;
+        if (b < list.bricks.size()) {
+          const Brick& brick = list.bricks[b];
+          f = interpreter.evaluate({&list.code[brick.tape_begin], brick.tape_count}, at).field.v;
+        }
+        ASSERT_NEAR(f, evaluator.value(at), 1e-9) << "seed " << seed << ", brick " << b;
+      }
+    }
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 3000) << "seed " << seed;
+  }
+  EXPECT_GT(grids, 10);
+}
+
+TEST(PointGrid, SortsBySeveralThreadsAsByOne) {
+  const Tape tape =
+      compile_or_die(read_or_die(test_support::random_scene(3, {.nodes = 60, .cuts = false, .all_operators = false})));
+  const auto grid = PointGrid::make(tape, {});
+  ASSERT_TRUE(grid.ok()) << grid.status();
+  Random random(1);
+  const std::vector<float> xyz = points_about(tape.support, random, 600'000);
+  const PointGrid::Sorted all = grid->sort(xyz);
+  // Within a brick the batch's order stays: so do the bits of what is sorted, whoever sorts.
+  for (std::size_t b = 0; b + 1 < all.starts.size(); ++b) {
+    for (std::uint32_t n = all.starts[b] + 1; n < all.starts[b + 1]; ++n) {
+      ASSERT_LT(all.points[n - 1].place, all.points[n].place);
+    }
+  }
+  EXPECT_EQ(all.starts.back(), 600'000u);
+}
+
+TEST(PointGrid, IsNoneWhereMostPrimitivesOverlap) {
+  v1::Scene scene;
+  v1::Node sum;
+  for (int i = 0; i < 1500; ++i) {
+    v1::Sphere& s = *scene.add_nodes()->mutable_sphere();
+    s.add_center(i * 1e-4);
+    s.add_center(0);
+    s.add_center(0);
+    s.set_radius(1);
+    s.set_range(1 + (i * 617 % 1500) * 1e-3);
+    sum.mutable_sum()->add_children(test_support::place(i));
+  }
+  *scene.add_nodes() = sum;
+  const Tape tape = compile_or_die(read_or_die(scene));
+  EXPECT_EQ(PointGrid::make(tape, {}).status().code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(PointGrid::make(tape, [] { return true; }).status().code(), absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace isofield::blobtree
