@@ -19,9 +19,8 @@ const int ROUNDS = 3;
 const float FIRST_PULL = 0.35, PULL = 0.07;
 // And a little further out of the cell along the side: where the crease lies in a face, a side may lie beyond it.
 const float BEYOND = 0.1;
-// How often a round makes good the damping, which leaves the vertex off a plane that the way along the crease, or along a
-// face that holds it in its cell, meets at a small angle.
-const int SLIDES = 4;
+// Of the meeting point. Little: the way that a face which holds the vertex leaves it may meet a side at a few degrees.
+const float DAMPING = 1e-4;
 
 void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
@@ -56,11 +55,7 @@ void main() {
       vec3 n = -d * inverse;
       add_plane(planes, n, dot(n, q - x) + (inward() * a.f - iso) * inverse);
       if (side == 2) {
-        for (int slide = 0; slide < SLIDES; ++slide) {
-          vec3 move = meeting_point(planes, x);
-          x += move;
-          planes.offset -= times(planes, move);
-        }
+        x += meeting_point(planes, x, DAMPING);
         planes = no_planes();
       }
     }

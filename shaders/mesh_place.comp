@@ -17,6 +17,8 @@ layout(std430, binding = 13) readonly buffer Samples { float samples[]; };  // o
 // A patch is taken to hold a crease where the mean of the squared sines between its normals and their mean is more:
 // creases that turn by about 25 degrees, and surfaces with a radius of up to 2.5 cells.
 const float CREASE_SPREAD = 0.04;
+// Of the meeting point: tangent planes at the crossings tell nothing of a curved side's turn in between.
+const float DAMPING = 2e-3;
 // What a cell's distance across the crease counts beside the cosine between a crossing's normal and another: of those of
 // one side the furthest is taken, since the way to one beside the crease leads along it and onto its other side.
 const float ACROSS = 0.1;
@@ -57,7 +59,8 @@ void main() {
     float count = float(bitCount(edges));
     vec3 mean = sum / count;
     planes.offset -= times(planes, mean);
-    vec3 x = clamp(mean + (on_cap || is_crowded || !may_crease ? vec3(0.0) : meeting_point(planes, mean)), MARGIN, 1.0 - MARGIN);
+    vec3 move = on_cap || is_crowded || !may_crease ? vec3(0.0) : meeting_point(planes, mean, DAMPING);
+    vec3 x = clamp(mean + move, MARGIN, 1.0 - MARGIN);
 
     float spread = 1.0 - dot(facing, times(planes, facing)) / (count * max(dot(facing, facing), 1e-12));
     bool on_crease = may_crease && spread > CREASE_SPREAD && !on_cap && !is_crowded;
