@@ -19,6 +19,8 @@ const int ROUNDS = 3;
 const float FIRST_PULL = 0.35, PULL = 0.07;
 // And a little further out of the cell along the side: where the crease lies in a face, a side may lie beyond it.
 const float BEYOND = 0.1;
+// Of the meeting point. Little: the way that a face which holds the vertex leaves it may meet a side at a few degrees.
+const float DAMPING = 1e-4;
 
 void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
@@ -53,7 +55,7 @@ void main() {
       vec3 n = -d * inverse;
       add_plane(planes, n, dot(n, q - x) + (inward() * a.f - iso) * inverse);
       if (side == 2) {
-        x += meeting_point(planes, x);
+        x += meeting_point(planes, x, DAMPING);
         planes = no_planes();
       }
     }

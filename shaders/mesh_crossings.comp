@@ -46,12 +46,11 @@ void main() {
       vec3 d = inward() * size * a.d;
       float excess = inward() * a.f - iso, slope2 = dot(d, d);
       n = slope2 > 1e-30 && !done ? -d * inversesqrt(slope2) : n;
-      bool is_last = abs(excess) <= NEAR * sqrt(slope2);
       if ((excess > 0.0) == inside_low) least = s; else most = s;
-      float newton = s - excess / dot(d, along);
-      bool is_within = newton >= least && newton <= most;  // not a NaN
-      float next = is_within ? newton : is_last ? s : 0.5 * (least + most);
-      s = done ? s : next;
+      float newton = s - excess / dot(d, along), within = clamp(newton, least, most);
+      // Near the surface, and not beside it: the edge may leave it at a small angle. Neither of a NaN.
+      bool is_last = abs(excess) <= NEAR * sqrt(slope2) && abs(newton - within) <= NEAR;
+      s = done ? s : newton == within || is_last ? within : 0.5 * (least + most);
       done = done || is_last;
     }
     n *= 1.0 + s;

@@ -17,6 +17,11 @@ layout(std430, binding = 13) readonly buffer Samples { float samples[]; };  // o
 // A patch is taken to hold a crease where the mean of the squared sines between its normals and their mean is more:
 // creases that turn by about 25 degrees, and surfaces with a radius of up to 2.5 cells.
 const float CREASE_SPREAD = 0.04;
+// Of the meeting point: tangent planes at the crossings tell nothing of a curved side's turn in between.
+const float DAMPING = 2e-3;
+// What a cell's distance across the crease counts beside the cosine between a crossing's normal and another: of those of
+// one side the furthest is taken, since the way to one beside the crease leads along it and onto its other side.
+const float ACROSS = 0.1;
 
 void main() {
   uint b = first + gl_WorkGroupID.x;
@@ -54,14 +59,16 @@ void main() {
     float count = float(bitCount(edges));
     vec3 mean = sum / count;
     planes.offset -= times(planes, mean);
-    vec3 x = clamp(mean + (on_cap || is_crowded || !may_crease ? vec3(0.0) : meeting_point(planes, mean)), MARGIN, 1.0 - MARGIN);
+    vec3 move = on_cap || is_crowded || !may_crease ? vec3(0.0) : meeting_point(planes, mean, DAMPING);
+    vec3 x = clamp(mean + move, MARGIN, 1.0 - MARGIN);
 
     float spread = 1.0 - dot(facing, times(planes, facing)) / (count * max(dot(facing, facing), 1e-12));
     bool on_crease = may_crease && spread > CREASE_SPREAD && !on_cap && !is_crowded;
     if (on_crease) {
       // The crossing that faces furthest from the mean, that which faces furthest from it, and that which faces furthest
       // from the plane of the two.
-      vec3 axis = -facing, second = vec3(0.0);
+      vec3 ahead = facing * inversesqrt(max(dot(facing, facing), 1e-12));
+      vec3 axis = -ahead, second = vec3(0.0);
       uint chosen = 0u;
       for (uint n = 0u; n < 3u; ++n) {
         float best = -1e30;
@@ -69,11 +76,11 @@ void main() {
         vec3 best_normal = vec3(0.0);
         for (uint left = edges; left != 0u; left &= left - 1u) {
           uint edge = uint(findLSB(left));
-          vec3 normal = crossing_of(b, cell, edge).normal;
-          float score = dot(normal, axis);
-          score = n == 2u ? abs(score) : score;
+          Crossing c = crossing_of(b, cell, edge);
+          float score = dot(c.normal, axis);
+          score = (n == 2u ? abs(score) : score) + ACROSS * abs(dot(c.at - x, ahead));
           best_edge = score > best ? edge : best_edge;
-          best_normal = score > best ? normal : best_normal;
+          best_normal = score > best ? c.normal : best_normal;
           best = max(score, best);
         }
         chosen |= best_edge << (4u * n);

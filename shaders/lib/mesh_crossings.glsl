@@ -46,19 +46,16 @@ void add_plane(inout Planes s, vec3 n, float distance) {
 }
 vec3 times(Planes s, vec3 v) { return s.xx_yy_zz * v + s.yz_zx_xy.zxy * v.yzx + s.yz_zx_xy.yzx * v.zxy; }
 
-// Keeps the least squares where they are along what the planes leave open, or almost open: what a truncated
-// pseudo-inverse does, but continuous, without an eigen decomposition, and made good by the next round.
-const float DAMPING = 0.002;
-
 // From the point to where the planes meet as well as can be within the cell, the point being at `x` in it, in cells. Where
 // they meet outside the cell it slides along the crease to the cell's face: what leaves the cell is held there, and the
-// rest follows.
-vec3 meeting_point(Planes s, vec3 x) {
+// rest follows. The damping, a part of the planes' number, keeps the point where it is along what they leave open, or
+// almost open: what a truncated pseudo-inverse does, but continuous, and without an eigen decomposition.
+vec3 meeting_point(Planes s, vec3 x, float damping) {
   vec3 least = vec3(MARGIN) - x, most = vec3(1.0 - MARGIN) - x;
   float scale = dot(s.xx_yy_zz, vec3(1.0));
   vec3 held = vec3(0.0), free = vec3(1.0), step = vec3(0.0);
   for (int round = 0; round < 3; ++round) {
-    vec3 d = mix(vec3(scale), s.xx_yy_zz + DAMPING * scale, free);
+    vec3 d = mix(vec3(scale), s.xx_yy_zz + damping * scale, free);
     vec3 o = s.yz_zx_xy * free.yzx * free.zxy;
     vec3 rest = mix(scale * held, s.offset - times(s, held), free);
     vec3 column0 = vec3(d.x, o.z, o.y), column1 = vec3(o.z, d.y, o.x), column2 = vec3(o.y, o.x, d.z);
