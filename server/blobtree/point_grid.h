@@ -32,7 +32,7 @@ class PointGrid {
     std::unique_ptr<PlacedPoint[]> points;  // by brick
     std::vector<std::uint32_t> starts;      // where each brick's begin, those in no brick's, and the end
   };
-  // `xyz` holds 3 finite numbers a point. Large batches are sorted by several threads.
+  // `xyz` holds 3 finite numbers a point. Within a brick they keep their order.
   Sorted sort(std::span<const float> xyz) const;
 
  private:

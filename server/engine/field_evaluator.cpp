@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "blobtree/point_bins.h"
 #include "engine/session.h"
@@ -22,15 +23,14 @@ constexpr std::uint32_t kPointsPerGroup = 64;
 // 0.07 s of gradient blends on two cores.
 constexpr std::uint64_t kSubmissionWork = 1u << 21;
 
-// Of a written kernel: points of a submission, which where it must be copied comes and goes while the device is at
-// another and stays in the processor's caches, and of a workgroup (shaders/tape_points.comp).
-constexpr std::size_t kWrittenPoints = 1u << 15;
+// Of a written kernel: points of a submission, some 20 ms of the longest tapes on two cores, and of a workgroup
+// (shaders/tape_points.comp).
+constexpr std::size_t kWrittenPoints = 1u << 18;
 constexpr std::uint32_t kWrittenGroup = 64;
 
-struct WrittenPiece {
-  gpu::Buffer points, results;
-  Session session;  // last: it waits for the device, which uses the others
-};
+// Of a batch that goes through an index: points of a piece at least, and a brick. What a piece reads and writes at
+// random stays in the processor's caches, and the next one is sorted while the device is at it.
+constexpr std::size_t kIndexedPoints = 1u << 17, kIndexedPointsPerBrick = 32;
 
 // Calls dispatch(first, count, window) for runs of workgroups whose tapes lie in one window, `windows` says in which;
 // after every kSubmissionWork the work so far is waited for.
@@ -81,69 +81,110 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
       written_ ? written_->find(scene, quantity == Quantity::kValueAndGradient, count) : nullptr;
   if (written) return evaluate_written(*written, scene, xyz, quantity, out, cancelled, std::move(submission));
   ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, cancelled));
-  Sorted sorted;
-  if (index) {
-    blobtree::PointGrid::Sorted by_brick = index->grid().sort(xyz);
-    sorted.points = std::move(by_brick.points);
-    const std::vector<std::uint32_t>& starts = by_brick.starts;
-    const std::size_t bricks = index->tapes().size();
-    for (std::size_t b = 0; b < bricks; ++b) {
-      const PointIndex::Tape& tape = index->tapes()[b];
-      if (starts[b] == starts[b + 1]) continue;
-      sorted.groups.push_back({starts[b], starts[b + 1] - starts[b], tape.begin, tape.count, tape.window});
-    }
-    if (starts[bricks] < count) {
-      sorted.groups.push_back({starts[bricks], starts[bricks + 1] - starts[bricks], 0, 0, 0});
-    }
-    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
-    return evaluate_sorted(session, scene, index->windows(), sorted, xyz, quantity, out, cancelled);
-  }
+  if (index) return evaluate_indexed(*index, scene, xyz, quantity, out, cancelled, std::move(submission));
   blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
   TapeWindows tapes(device_, scene, std::move(bins.code));
+  std::vector<Group> groups;
+  for (const blobtree::PointGroup& g : bins.groups) {
+    groups.push_back({g.first, g.count, g.tape_begin, g.tape_count, 0});
+    if (g.tape_count > 0) groups.back().window = tapes.add(groups.back().tape_begin, g.tape_count);
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
   if (!bins.order.empty()) {
-    sorted.points = std::make_unique_for_overwrite<blobtree::PlacedPoint[]>(count);
+    piece.sorted = std::make_unique_for_overwrite<blobtree::PlacedPoint[]>(count);
     for (std::size_t n = 0; n < count; ++n) {
       const float* p = &xyz[3 * std::size_t{bins.order[n]}];
-      sorted.points[n] = {p[0], p[1], p[2], bins.order[n]};
+      piece.sorted[n] = {p[0], p[1], p[2], bins.order[n]};
     }
   }
-  for (const blobtree::PointGroup& g : bins.groups) {
-    std::uint32_t begin = g.tape_begin;
-    const std::uint32_t window = tapes.add(begin, g.tape_count);
-    sorted.groups.push_back({g.first, g.count, begin, g.tape_count, window});
-  }
-  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
-  ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
-  return evaluate_sorted(session, scene, tapes, sorted, xyz, quantity, out, cancelled);
+  ISOFIELD_RETURN_IF_ERROR(tapes.upload(piece.session));
+  ISOFIELD_RETURN_IF_ERROR(record(piece, scene, tapes, groups, xyz, quantity, out, cancelled));
+  return piece.session.run();
 }
 
-absl::Status FieldEvaluator::evaluate_sorted(Session& session, const ResidentScene& scene, const TapeWindows& tapes,
-                                             const Sorted& sorted, std::span<const float> xyz, Quantity quantity,
-                                             std::span<float> out, const Cancelled& cancelled) {
+absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const ResidentScene& scene,
+                                              std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                                              const Cancelled& cancelled, Submission submission) {
+  const std::size_t count = xyz.size() / 3, bricks = index.tapes().size();
+  const std::size_t most = std::max(kIndexedPoints, kIndexedPointsPerBrick * bricks);
+  const std::uint32_t points_per_job = device_.description().subgroup_size;
+  std::optional<Piece> running;
+  for (std::size_t first = 0; first < count; first += most) {
+    if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
+    const std::size_t part = std::min(most, count - first);
+    const std::span<const float> part_xyz = xyz.subspan(3 * first, 3 * part);
+    blobtree::PointGrid::Sorted sorted = index.grid().sort(part_xyz);
+    std::vector<Group> groups;
+    std::uint64_t work = 0;
+    for (std::size_t b = 0; b <= bricks; ++b) {
+      const std::uint32_t begin = sorted.starts[b], points = sorted.starts[b + 1] - begin;
+      if (points == 0) continue;
+      const PointIndex::Tape tape = b < bricks ? index.tapes()[b] : PointIndex::Tape{};
+      groups.push_back({begin, points, tape.begin, tape.count, tape.window});
+      work += std::uint64_t{(points + points_per_job - 1) / points_per_job * points_per_job} * tape.count;
+    }
+    // What is too much for one submission is submitted while it is recorded, and takes the turn that `running` holds.
+    if (running && work >= kSubmissionWork) ISOFIELD_RETURN_IF_ERROR(finish(*std::exchange(running, {})));
+    ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
+    piece.sorted = std::move(sorted.points);
+    ISOFIELD_RETURN_IF_ERROR(record(piece, scene, index.windows(), groups, part_xyz, quantity,
+                                    out.subspan(first * components(quantity), part * components(quantity)), cancelled));
+    if (running) ISOFIELD_RETURN_IF_ERROR(running->session.wait());
+    ISOFIELD_RETURN_IF_ERROR(piece.session.submit());
+    if (running) running->session.collect();
+    running = std::move(piece);
+  }
+  return finish(*std::move(running));
+}
+
+absl::Status FieldEvaluator::finish(Piece piece) {
+  ISOFIELD_RETURN_IF_ERROR(piece.session.wait());
+  piece.session.collect();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<FieldEvaluator::Piece> FieldEvaluator::begin_piece(Submission& submission) {
+  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
+  submission.turn = {};
+  return Piece{nullptr, {}, std::move(session)};
+}
+
+absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes,
+                                    std::span<const Group> groups, std::span<const float> xyz, Quantity quantity,
+                                    std::span<float> out, const Cancelled& cancelled) {
   const std::uint32_t points_per_job = device_.description().subgroup_size;
   const std::uint32_t jobs_per_group = kPointsPerGroup / points_per_job;
   std::vector<PointJob> jobs;
   std::vector<std::uint32_t> windows;
-  jobs.reserve(xyz.size() / 3 / points_per_job + sorted.groups.size());
+  const auto with_tape = std::find_if(groups.begin(), groups.end(), [](const Group& g) { return g.tape_count > 0; });
+  if (with_tape == groups.end()) {
+    std::fill(out.begin(), out.end(), 0.0f);
+    return absl::OkStatus();
+  }
+  jobs.reserve(xyz.size() / 3 / points_per_job + groups.size());
   windows.reserve(jobs.capacity());
-  for (const Sorted::Group& g : sorted.groups) {
+  std::uint32_t window = with_tape->window;  // where the field is 0, any will do
+  for (const Group& g : groups) {
+    if (g.tape_count > 0) window = g.window;
     const std::uint32_t last = g.first + g.count - 1;
     for (std::uint32_t at = g.first; at <= last; at += points_per_job) {
       jobs.push_back({g.tape_begin, g.tape_count, at, last});
-      windows.push_back(g.window);
+      windows.push_back(window);
     }
   }
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer job_buffer, session.upload(std::span(jobs)));
-  const auto* const placed = reinterpret_cast<const float*>(sorted.points.get());
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer points,
-                            session.input(sorted.points ? std::span(placed, 4 * (xyz.size() / 3)) : xyz));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.output(out));
+  const bool is_sorted = piece.sorted != nullptr;
+  const auto* const sorted = reinterpret_cast<const float*>(piece.sorted.get());
+  Session& session = piece.session;
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer job_buffer, session.upload(std::span(jobs)));
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points,
+                            session.input(is_sorted ? std::span(sorted, 4 * (xyz.size() / 3)) : xyz));
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(out));
   const KernelKind kind = KernelKind::of(scene.tape());
   ISOFIELD_RETURN_IF_ERROR(submit_in_pieces(
       session, windows, cancelled, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * points_per_job; },
       [&](std::size_t first, std::uint32_t count, std::uint32_t window) -> absl::Status {
         const std::array<std::uint32_t, 3> constants{
-            static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first + count - 1), sorted.points ? 1u : 0u};
+            static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first + count - 1), is_sorted ? 1u : 0u};
         ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
                                   kernels_.get(points_shader(quantity), tapes.kind(kind, window)));
         return session.commands().dispatch(
@@ -151,18 +192,20 @@ absl::Status FieldEvaluator::evaluate_sorted(Session& session, const ResidentSce
             (count + jobs_per_group - 1) / jobs_per_group);
       }));
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
-  return session.run();
+  for (gpu::Buffer* b : {&job_buffer, &points, &results}) piece.buffers.push_back(std::move(*b));
+  return absl::OkStatus();
 }
 
 absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const ResidentScene& scene,
                                               std::span<const float> xyz, Quantity quantity, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3;
-  std::optional<WrittenPiece> running;
+  std::optional<Piece> running;
   for (std::size_t first = 0; first < count; first += kWrittenPoints) {
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
     const std::size_t part = std::min(kWrittenPoints, count - first);
-    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
+    ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
+    Session& session = piece.session;
     const std::span<float> part_out = out.subspan(first * components(quantity), part * components(quantity));
     ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.input(xyz.subspan(3 * first, 3 * part)));
     ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(part_out));
@@ -173,11 +216,11 @@ absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const
     if (running) ISOFIELD_RETURN_IF_ERROR(running->session.wait());
     ISOFIELD_RETURN_IF_ERROR(session.submit());
     if (running) running->session.collect();
-    running = WrittenPiece{std::move(points), std::move(results), std::move(session)};
+    piece.buffers.push_back(std::move(points));
+    piece.buffers.push_back(std::move(results));
+    running = std::move(piece);
   }
-  ISOFIELD_RETURN_IF_ERROR(running->session.wait());
-  running->session.collect();
-  return absl::OkStatus();
+  return finish(*std::move(running));
 }
 
 absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,

@@ -12,6 +12,7 @@
 #include "engine/kernel_cache.h"
 #include "engine/point_index.h"
 #include "engine/resident_scene.h"
+#include "engine/session.h"
 #include "engine/written_kernels.h"
 #include "gpu/turns.h"
 
@@ -54,17 +55,24 @@ class FieldEvaluator {
                                 Quantity quantity, std::span<float> out, const Cancelled& cancelled,
                                 Submission submission);
 
-  // Points of a batch by tape.
-  struct Sorted {
-    struct Group {
-      std::uint32_t first, count, tape_begin, tape_count, window;
-    };
-    std::unique_ptr<blobtree::PlacedPoint[]> points;  // null: as the batch has them
-    std::vector<Group> groups;
+  absl::Status evaluate_indexed(const PointIndex& index, const ResidentScene& scene, std::span<const float> xyz,
+                                Quantity quantity, std::span<float> out, const Cancelled& cancelled,
+                                Submission submission);
+
+  // Points of one tape, consecutive in Piece::sorted; the window as of TapeWindows::add. No tape: the field is 0.
+  struct Group {
+    std::uint32_t first, count, tape_begin, tape_count, window;
   };
-  absl::Status evaluate_sorted(Session& session, const ResidentScene& scene, const TapeWindows& tapes,
-                               const Sorted& sorted, std::span<const float> xyz, Quantity quantity,
-                               std::span<float> out, const Cancelled& cancelled);
+  // What a submission needs until it is done.
+  struct Piece {
+    std::unique_ptr<blobtree::PlacedPoint[]> sorted;  // null: the points are as the batch has them
+    std::vector<gpu::Buffer> buffers;
+    Session session;  // last: it waits for the device, which uses the others
+  };
+  absl::StatusOr<Piece> begin_piece(Submission& submission);
+  static absl::Status finish(Piece submitted);
+  absl::Status record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes, std::span<const Group> groups,
+                      std::span<const float> xyz, Quantity quantity, std::span<float> out, const Cancelled& cancelled);
 
   gpu::Device& device_;
   KernelCache& kernels_;

@@ -207,11 +207,45 @@ TEST(FieldOnDevice, EditedOpeningsShareTheLeaves) {
   EXPECT_FALSE(blobtree::edit_blends((*after)->tape(), scene, *wrong, {}).ok());
 }
 
+TEST(FieldOnDevice, IsZeroWhereNothingIs) {
+  for (const int primitives : {20, 1500}) {  // the tape of the latter fits no window
+    v1::Scene scene;
+    v1::Node sum;
+    for (int i = 0; i < primitives; ++i) {
+      scene.add_nodes()->mutable_sphere()->set_radius(0.5 + 1e-4 * i);
+      scene.mutable_nodes(i)->mutable_sphere()->set_range(0.1);
+      sum.mutable_sum()->add_children(test_support::place(i));
+    }
+    *scene.add_nodes() = sum;
+    const engine::SceneLease lease = resident(scene);
+    engine::FieldEvaluator fresh(device(), kernels());
+    for (const float near : {5.0f, 0.0f}) {  // all points far away, and all but some of the first ones
+      std::vector<float> xyz = random_points(1, 300'000, 1);
+      for (std::size_t i = near == 0 ? 300 : 0; i < xyz.size(); ++i) xyz[i] += 5;
+      std::vector<float> out(300'000, 7);
+      for (int batch = 0; batch < 3; ++batch) {
+        ASSERT_TRUE(fresh.evaluate(*lease, xyz, Quantity::kValue, out).ok());
+        EXPECT_EQ(std::count_if(out.begin() + 100, out.end(), [](float f) { return f != 0; }), 0);
+        EXPECT_EQ(std::count_if(out.begin(), out.begin() + 100, [](float f) { return f != 0; }) > 0, near == 0);
+      }
+    }
+  }
+}
+
 // A scene that is asked often has its tapes on the device.
 TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
-  for (const std::uint64_t seed : {3u, 8u, 21u}) {
-    const engine::SceneLease lease =
-        resident(test_support::random_scene(seed, {.nodes = 80, .cuts = seed == 21, .all_operators = false}));
+  v1::Scene overlapping;  // of which a piece is more than a submission
+  v1::Node sum;
+  for (int i = 0; i < 40; ++i) {
+    overlapping.add_nodes()->mutable_sphere()->set_radius(1 + i * 1e-2);
+    overlapping.mutable_nodes(i)->mutable_sphere()->set_range(2);
+    sum.mutable_sum()->add_children(test_support::place(i));
+  }
+  *overlapping.add_nodes() = sum;
+  for (const std::uint64_t seed : {3u, 8u, 21u, 40u}) {
+    const engine::SceneLease lease = resident(
+        seed == 40 ? overlapping
+                   : test_support::random_scene(seed, {.nodes = 80, .cuts = seed == 21, .all_operators = false}));
     ASSERT_GT(lease->tape().code.size(), 12u);
     const std::vector<float> xyz = random_points(seed, 150'000, 2);
     // An evaluator that has seen nothing, and so sorts the first batches by themselves.

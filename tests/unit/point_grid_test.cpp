@@ -53,6 +53,7 @@ TEST(PointGrid, SortsEveryPointToATapeThatGivesItsField) {
       for (std::uint32_t n = sorted.starts[b]; n < sorted.starts[b + 1]; ++n) {
         const PlacedPoint& p = sorted.points[n];
         ++seen[p.place];
+        ASSERT_TRUE(n == sorted.starts[b] || sorted.points[n - 1].place < p.place);
         ASSERT_EQ(std::memcmp(&xyz[3 * p.place], &p, 3 * sizeof(float)), 0);
         const dvec3 at{p.x, p.y, p.z};
         double f = 0;
@@ -66,23 +67,6 @@ TEST(PointGrid, SortsEveryPointToATapeThatGivesItsField) {
     EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 3000) << "seed " << seed;
   }
   EXPECT_GT(grids, 10);
-}
-
-TEST(PointGrid, SortsBySeveralThreadsAsByOne) {
-  const Tape tape =
-      compile_or_die(read_or_die(test_support::random_scene(3, {.nodes = 60, .cuts = false, .all_operators = false})));
-  const auto grid = PointGrid::make(tape, {});
-  ASSERT_TRUE(grid.ok()) << grid.status();
-  Random random(1);
-  const std::vector<float> xyz = points_about(tape.support, random, 600'000);
-  const PointGrid::Sorted all = grid->sort(xyz);
-  // Within a brick the batch's order stays: so do the bits of what is sorted, whoever sorts.
-  for (std::size_t b = 0; b + 1 < all.starts.size(); ++b) {
-    for (std::uint32_t n = all.starts[b] + 1; n < all.starts[b + 1]; ++n) {
-      ASSERT_LT(all.points[n - 1].place, all.points[n].place);
-    }
-  }
-  EXPECT_EQ(all.starts.back(), 600'000u);
 }
 
 TEST(PointGrid, IsNoneWhereMostPrimitivesOverlap) {
