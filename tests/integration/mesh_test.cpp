@@ -124,6 +124,29 @@ TEST_F(Mesh, FollowsTheIsoValue) {
   }
 }
 
+TEST_F(Mesh, VerticesAreAsNearAsTheToleranceSays) {
+  v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.05);
+  const ReceivedMesh usual = peer_.mesh(request);
+  request.set_tolerance(1e-3);
+  EXPECT_EQ(peer_.mesh(request).positions, usual.positions) << "the default";
+  double last = 1;
+  for (const double tolerance : {0.1, 1e-3}) {
+    request.set_tolerance(tolerance);
+    const ReceivedMesh received = peer_.mesh(request);
+    expect_sound(received);
+    double sum = 0;
+    for (std::size_t v = 0; v < received.positions.size(); v += 3) {
+      const float* const p = &received.positions[v];
+      const double r = std::hypot(p[0] - ball_.center[0], p[1] - ball_.center[1], p[2] - ball_.center[2]);
+      sum += std::abs(r - ball_.radius) / 0.05;
+    }
+    const double mean = 3 * sum / static_cast<double>(received.positions.size());
+    EXPECT_LE(mean, tolerance);
+    EXPECT_LT(mean, last / 2);
+    last = mean;
+  }
+}
+
 TEST_F(Mesh, OfNothingIsEmpty) {
   const v1::Scene apart = test_support::scene_of_nodes(R"(
     {"name": "a", "sphere": {"radius": 1, "range": 1}},
