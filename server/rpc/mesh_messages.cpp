@@ -63,6 +63,18 @@ absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& req
   return r;
 }
 
+absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRequest& request) {
+  if (!request.has_simplification_error()) return std::nullopt;
+  return read_length("simplification_error", request.simplification_error());
+}
+
+absl::Status check_not_simplified(const v1::MeshRequest& request) {
+  if (!request.has_simplification_error()) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("simplification_error = ", request.simplification_error(),
+                   ": expected none, since bricks are the same whatever part they come with; Mesh and Measure simplify"));
+}
+
 std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,
                         v1::MeshBricks& message) {
   std::vector<std::uint32_t> rows;
@@ -89,6 +101,12 @@ void MeshTotals::add(const engine::MeshCells& part) {
   vertices += part.positions.size() / 3;
   triangles += part.corners.size() / 3;
   cells += part.cells;
+}
+
+void MeshTotals::add(const engine::Mesh& whole) {
+  vertices += whole.positions.size() / 3;
+  triangles += whole.triangles.size() / 3;
+  cells += whole.cells;
 }
 
 void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const engine::ResidentScene& scene,
