@@ -58,7 +58,7 @@ std::vector<dvec3> face_directions(std::span<const float> positions, std::span<c
   for (std::uint32_t t = 0; t < count; ++t) {
     std::uint32_t from = t;
     for (int step = 0; step < 4 && beside[from] != kNone; ++step) from = beside[from];
-    directions[t] = own[from];
+    directions[t] = own[beside[from] == kNone ? from : t];
   }
   return directions;
 }
