@@ -16,7 +16,7 @@ struct CreaseWedges {
   std::vector<Triangle> triangles;      // wedge numbers
 };
 
-// Creases are the edges at which the triangles turn by 25 degrees or more; thin triangles, whose own direction says
+// Creases are rows of edges at which the triangles turn by 25 degrees or more; a single one is none, and cuts nothing. Thin triangles, whose own direction says
 // nothing, take that of the triangle at their longest edge.
 CreaseWedges crease_wedges(const Mesh& mesh);
 

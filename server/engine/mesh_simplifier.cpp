@@ -30,10 +30,12 @@ constexpr double kGrowth = 1.3, kShift = 0.37;
 constexpr double kFirstAsked = 0.5, kMoreAsked = 0.15;
 // A pass that leaves more than this part of the triangles is the last.
 constexpr double kLittle = 0.98;
-// How often a piece is tried in a pass, each time without what went wrong.
-constexpr int kTries = 4;
+// How often a piece is tried, each time without what went wrong; and then how often again, with half of what was asked.
+constexpr int kTries = 4, kHalvings = 2;
 // A triangle is looked at in the middles of such as have edges of this length, in edges of the mesh: an edge apart.
 constexpr double kSampleEdges = 1.7;
+// Cosine of the angle by which a triangle may turn from what it stands for.
+constexpr double kFacing = 0.5;
 // Twice the area by the square of the longest edge.
 constexpr double kFlat = 1e-6;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -46,6 +48,7 @@ class Simplifier {
         callbacks_(callbacks),
         facing_(mesh.positions.size() / 3),
         homes_(facing_.size()),
+        is_frozen_(facing_.size()),
         seen_(facing_.size()) {}
 
   absl::StatusOr<Mesh> simplified() {
@@ -105,7 +108,6 @@ class Simplifier {
     const auto places = pieces(kPieceEdges * spacing_ * std::pow(kGrowth, pass), kShift * pass);
     list_guests();
     edges_.emplace(vertices_of(triangles_), facing_.size());
-    is_frozen_.assign(facing_.size(), false);
     asked_ = (kFirstAsked + kMoreAsked * pass) * max_error_;
     next_.clear();
     std::vector<std::uint32_t> piece;
@@ -113,7 +115,9 @@ class Simplifier {
       piece.push_back(places[i].second);
       if (i + 1 < places.size() && places[i + 1].first == places[i].first) continue;
       ISOFIELD_RETURN_IF_ERROR(check());
-      simplify_piece(piece);
+      if (!is_simplified(piece)) {
+        for (const std::uint32_t t : piece) keep(t);
+      }
       piece.clear();
       const double fraction = static_cast<double>(i + 1) / static_cast<double>(places.size());
       if (callbacks_.progress) callbacks_.progress((pass + fraction) / kPasses);
@@ -144,8 +148,18 @@ class Simplifier {
     for (std::uint32_t v = 0; v < homes_.size(); ++v) guests_[ends[homes_[v]]++] = v;
   }
 
+  bool is_simplified(const std::vector<std::uint32_t>& piece) {
+    for (int halvings = 0; halvings <= kHalvings; ++halvings) {
+      if (is_simplified(piece, std::ldexp(asked_, -halvings))) return true;
+    }
+    return false;
+  }
+
   // `piece`: numbers of triangles. What takes their place goes to next_, with the vertices that it is the home of.
-  void simplify_piece(const std::vector<std::uint32_t>& piece) {
+  bool is_simplified(const std::vector<std::uint32_t>& piece, double asked) {
+    for (const std::uint32_t t : piece) {
+      for (const std::uint32_t v : vertices_of(triangles_[t])) is_frozen_[v] = false;
+    }
     std::vector<std::uint32_t> movable;
     std::vector<Triangle> before, after;
     for (int attempt = 0; attempt < kTries; ++attempt) {
@@ -157,26 +171,26 @@ class Simplifier {
         movable.push_back(t);
         before.push_back(triangles_[t]);
       }
-      after = collapsed(before);
-      if (after.size() == before.size()) break;
+      after = collapsed(before, asked);
+      if (after.size() == before.size()) return false;
       const std::vector<Triangle> after_vertices = vertices_of(after);
       const Fit fits = fit(vertices_of(before), after_vertices, *edges_);
       std::vector<std::uint32_t> wrong = fits.misfits;
-      if (wrong.empty() && !fits.has_same_handles) break;
+      if (wrong.empty() && !fits.has_same_handles) return false;
       std::vector<std::pair<std::uint32_t, std::uint32_t>> moved;
       if (wrong.empty()) wrong = faults(movable, after_vertices, moved);
       if (wrong.empty()) {
         for (const std::uint64_t edge : fits.chords) edges_->insert(edge);
         accept(piece, movable, after, moved);
-        return;
+        return true;
       }
       for (const std::uint32_t v : wrong) is_frozen_[v] = true;
     }
-    for (const std::uint32_t t : piece) keep(t);
+    return false;
   }
 
   // By meshoptimizer: to vertices that are there.
-  std::vector<Triangle> collapsed(const std::vector<Triangle>& triangles) {
+  std::vector<Triangle> collapsed(const std::vector<Triangle>& triangles, double asked) {
     if (triangles.empty()) return {};
     std::vector<std::uint32_t> used, indices, result;
     std::vector<float> positions;
@@ -196,7 +210,7 @@ class Simplifier {
     const float scale = meshopt_simplifyScale(positions.data(), used.size(), 3 * sizeof(float));
     result.resize(indices.size());
     result.resize(meshopt_simplify(result.data(), indices.data(), indices.size(), positions.data(), used.size(),
-                                   3 * sizeof(float), 0, static_cast<float>(asked_ / scale),
+                                   3 * sizeof(float), 0, static_cast<float>(asked / scale),
                                    meshopt_SimplifyLockBorder));
     std::vector<Triangle> out(result.size() / 3);
     for (std::size_t i = 0; i < result.size(); ++i) out[i / 3][i % 3] = result[i];
@@ -224,7 +238,7 @@ class Simplifier {
       for (std::uint32_t i = starts_[home]; i < starts_[home + 1]; ++i) {
         const std::uint32_t v = guests_[i];
         if (seen_[v] == now_) continue;
-        if (const auto triangle = tree.find(at(v), facing_[v], max_error_)) {
+        if (const auto triangle = tree.find(at(v), facing_[v], 0, max_error_)) {
           moved.push_back({v, *triangle});
         } else {
           const Triangle t = vertices_of(triangles_[home]);
@@ -241,7 +255,7 @@ class Simplifier {
     if (length(n) <= kFlat * longest * longest) return false;
     const int parts = static_cast<int>(std::ceil(longest / (kSampleEdges * spacing_)));
     const auto is_near = [&](double u, double v) {
-      return tree_->find(a + b * (u / parts) + c * (v / parts), n, max_error_).has_value();
+      return tree_->find(a + b * (u / parts) + c * (v / parts), n, kFacing, max_error_).has_value();
     };
     for (int i = 0; i < parts; ++i) {
       for (int j = 0; i + j < parts; ++j) {
@@ -315,7 +329,7 @@ class Simplifier {
   std::vector<std::uint32_t> homes_;
   std::vector<std::uint32_t> starts_, guests_;  // of triangle t: guests_[starts_[t]] up to [starts_[t + 1]]
   std::optional<MeshEdges> edges_;
-  std::vector<bool> is_frozen_;  // vertices whose triangles stay in this pass
+  std::vector<bool> is_frozen_;  // vertices whose triangles stay in the piece as they are
   double asked_ = 0;
   std::vector<std::uint32_t> seen_;  // when a vertex was last seen
   std::uint32_t now_ = 0;

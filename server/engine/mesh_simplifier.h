@@ -9,7 +9,7 @@
 namespace isofield::engine {
 
 // A mesh with some of the vertices of `mesh`, which is a closed 2-manifold, and their normals; as closed, with as many
-// handles. Triangles have an area and face within 90 degrees of what they stand for. Every vertex of `mesh` lies within
+// handles. Triangles have an area and face within 60 degrees of what they stand for. Every vertex of `mesh` lies within
 // `max_error` of the answer, and every triangle of the answer, looked at in points an edge of `mesh` apart, within it
 // of `mesh`: model units, > 0. Vertices on creases (crease_wedges.h) stay, or give way to others on the same crease;
 // where creases meet or end they stay. Deterministic. CANCELLED: callbacks.cancelled says so; asked every few

@@ -77,9 +77,10 @@ TriangleTree::TriangleTree(std::span<const float> positions, std::span<const Tri
   }
 }
 
-std::optional<std::uint32_t> TriangleTree::find(const dvec3& p, const dvec3& facing, double distance) {
+std::optional<std::uint32_t> TriangleTree::find(const dvec3& p, const dvec3& facing, double cosine, double distance) {
   const double limit = distance * distance;
-  if (const auto found = find_in_leaf(last_leaf_, p, facing, limit)) return found;
+  const Wanted wanted{p, facing, cosine * cosine * dot(facing, facing), limit};
+  if (const auto found = find_in_leaf(last_leaf_, wanted)) return found;
   const std::array<double, 3> at{p.x, p.y, p.z};
   const auto is_beside = [&](const Box& box) {
     double sum = 0;
@@ -98,7 +99,7 @@ std::optional<std::uint32_t> TriangleTree::find(const dvec3& p, const dvec3& fac
     if (node < leaves_) {
       stack[depth++] = 2 * node + 1;
       stack[depth++] = 2 * node;
-    } else if (const auto found = find_in_leaf(node - leaves_, p, facing, limit)) {
+    } else if (const auto found = find_in_leaf(node - leaves_, wanted)) {
       last_leaf_ = node - leaves_;
       return found;
     }
@@ -106,14 +107,16 @@ std::optional<std::uint32_t> TriangleTree::find(const dvec3& p, const dvec3& fac
   return std::nullopt;
 }
 
-std::optional<std::uint32_t> TriangleTree::find_in_leaf(std::size_t leaf, const dvec3& p, const dvec3& facing,
-                                                        double limit) const {
+std::optional<std::uint32_t> TriangleTree::find_in_leaf(std::size_t leaf, const Wanted& wanted) const {
   const std::size_t first = leaf * kLeafTriangles;
   for (std::size_t i = first; i < std::min(first + kLeafTriangles, order_.size()); ++i) {
     const Triangle& t = triangles_[order_[i]];
     const dvec3 a = position_of(positions_, t[0]), b = position_of(positions_, t[1]), c = position_of(positions_, t[2]);
     const dvec3 n = cross(b - a, c - a);
-    if (dot(n, facing) > 0 && is_near(p, a, b, c, n, limit)) return order_[i];
+    const double along = dot(n, wanted.facing);
+    if (along > 0 && along * along > wanted.cosine2 * dot(n, n) && is_near(wanted.p, a, b, c, n, wanted.distance2)) {
+      return order_[i];
+    }
   }
   return std::nullopt;
 }

@@ -29,16 +29,20 @@ class TriangleTree {
  public:
   TriangleTree(std::span<const float> positions, std::span<const Triangle> triangles);
 
-  // A triangle within `distance` of p that faces within 90 degrees of `facing`; nothing where there is none. Quick
-  // where the one found last, will do.
-  std::optional<std::uint32_t> find(const blobtree::dvec3& p, const blobtree::dvec3& facing, double distance);
+  // A triangle within `distance` of p that faces along `facing`, which need not be a unit vector: by an angle with more
+  // than this cosine, >= 0. Nothing where there is none. Quick where the one found last will do.
+  std::optional<std::uint32_t> find(const blobtree::dvec3& p, const blobtree::dvec3& facing, double cosine,
+                                    double distance);
 
  private:
   struct Box {
     std::array<float, 3> low, high;
   };
-  std::optional<std::uint32_t> find_in_leaf(std::size_t leaf, const blobtree::dvec3& p, const blobtree::dvec3& facing,
-                                            double distance2) const;
+  struct Wanted {
+    blobtree::dvec3 p, facing;
+    double cosine2, distance2;
+  };
+  std::optional<std::uint32_t> find_in_leaf(std::size_t leaf, const Wanted& wanted) const;
 
   std::span<const float> positions_;
   std::span<const Triangle> triangles_;

@@ -70,9 +70,9 @@ absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRe
 
 absl::Status check_not_simplified(const v1::MeshRequest& request) {
   if (!request.has_simplification_error()) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat("simplification_error = ", request.simplification_error(),
-                   ": expected none, since bricks are the same whatever part they come with; Mesh and Measure simplify"));
+  return absl::InvalidArgumentError(absl::StrCat(
+      "simplification_error = ", request.simplification_error(),
+      ": expected none, since bricks are the same whatever part they come with; Mesh and Measure simplify"));
 }
 
 std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,

@@ -20,7 +20,8 @@ absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& req
 
 // Model units; nothing: none is asked for.
 absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRequest& request);
-// Bricks are the same whatever part they come with, and so as they are made: INVALID_ARGUMENT where others are asked for.
+// Bricks are the same whatever part they come with, and so as they are made: INVALID_ARGUMENT where others are asked
+// for.
 absl::Status check_not_simplified(const v1::MeshRequest& request);
 
 // Bricks `first` and on: as many as a message holds. `vertex` and `triangle` are those before them, and move on.

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <vector>
 
+#include "engine/mesh_simplifier.h"
 #include "engine/mesher.h"
 #include "engine/surface_cases.h"
 #include "gpu/gpu_environment.h"
@@ -113,6 +114,28 @@ TEST(Mesher, MakesManifoldsOfRandomScenes) {
         if (m->triangles.empty()) continue;
         const test_support::MeshReport report = test_support::check_mesh(m->positions, m->triangles);
         EXPECT_TRUE(report.sound()) << nodes << " nodes, seed " << seed << ", cell " << cell << ": " << report.text();
+      }
+    }
+  }
+}
+
+TEST(Mesher, MakesManifoldsThatStayThatSimplified) {
+  for (const int nodes : {3, 10, 40, 120}) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      const v1::Scene scene = test_support::random_scene(50 * nodes + seed, {.nodes = nodes});
+      const double cell = 0.06;
+      const auto m = mesh(scene, {.cell_size = cell, .bounds = bounds_if_needed(scene)});
+      ASSERT_TRUE(m.ok()) << m.status();
+      if (m->triangles.empty()) continue;
+      const test_support::MeshReport before = test_support::check_mesh(m->positions, m->triangles);
+      for (const double error : {0.1, 2.0}) {
+        const auto simplified = engine::simplify(*m, error * cell, {});
+        ASSERT_TRUE(simplified.ok()) << simplified.status();
+        const test_support::MeshReport after = test_support::check_mesh(simplified->positions, simplified->triangles);
+        EXPECT_TRUE(after.sound()) << nodes << " nodes, seed " << seed << ", error " << error << ": " << after.text();
+        EXPECT_EQ(after.components, before.components) << nodes << " nodes, seed " << seed << ", error " << error;
+        EXPECT_EQ(after.genus(), before.genus()) << nodes << " nodes, seed " << seed << ", error " << error;
+        EXPECT_LE(after.zero_area, before.zero_area);
       }
     }
   }
