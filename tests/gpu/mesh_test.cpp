@@ -120,8 +120,8 @@ TEST(Mesher, MakesManifoldsOfRandomScenes) {
 }
 
 TEST(Mesher, MakesManifoldsThatStayThatSimplified) {
-  for (const int nodes : {3, 10, 40, 120}) {
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+  for (const int nodes : {10, 120}) {
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
       const v1::Scene scene = test_support::random_scene(50 * nodes + seed, {.nodes = nodes});
       const double cell = 0.06;
       const auto m = mesh(scene, {.cell_size = cell, .bounds = bounds_if_needed(scene)});

@@ -16,7 +16,7 @@ constexpr float kHalfTurn = 0.97629601f;
 // Across an edge of a curved surface the normals at its ends lie midway between those of its triangles, and the normals
 // at the corners that face it turn by twice as much as the triangles. At a crease a normal is that of one side, and the
 // corners' turn by as much as the triangles; where creases are near one another they may say anything.
-constexpr float kMostOfTurn = 0.85f, kLeastOfCorners = 0.7f;
+constexpr float kMostOfTurn = 0.85f, kLeastOfCorners = 0.9f;
 // Of a unit normal, what is left without its part along the edge.
 constexpr float kLeastAcross = 0.1f;
 // Height by longest edge: thinner triangles, whose own direction says little, take that of the one at that edge.
@@ -164,7 +164,7 @@ class Creases {
       return length(across) > kLeastAcross && std::max(angle(across, f), angle(across, g)) <= kMostOfTurn * turn;
     };
     const float corners = angle(normal(next(next(c))), normal(next(next(d))));
-    return !is_between(normal(c)) || !is_between(normal(next(c))) || turn >= kLeastOfCorners * corners;
+    return (!is_between(normal(c)) && !is_between(normal(next(c)))) || turn >= kLeastOfCorners * corners;
   }
 
   std::uint32_t root(std::uint32_t c) {
