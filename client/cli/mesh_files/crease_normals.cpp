@@ -10,7 +10,7 @@
 namespace isofield {
 namespace {
 
-constexpr float kLeastTurn = 25 * static_cast<float>(M_PI) / 180;
+constexpr float kLeastTurn = 0.90630779f;  // cosine of 25 degrees
 // Of the two triangles at such an edge one faces at least half of that away from the normal at either end: cosine.
 constexpr float kHalfTurn = 0.97629601f;
 // Across an edge of a curved surface the normals at its ends lie midway between those of its triangles, and the normals
@@ -42,12 +42,25 @@ class Creases {
     find_directions();
     parents_.resize(triangles_.size());
     std::iota(parents_.begin(), parents_.end(), 0u);
-    for (std::uint32_t c = 0; c < opposites_.size(); ++c) {
-      const std::uint32_t d = opposites_[c];
-      if (d == kNone || d < c || is_crease(c, d)) continue;
-      join(c, next(d));
-      join(next(c), d);
-    }
+    // Only where a crease passes, by two of a vertex's edges, can it have sides.
+    std::vector<bool> is_crease_side(opposites_.size());
+    std::vector<std::uint8_t> creases(mesh.vertex_count());
+    const auto for_edges = [&](const auto& visit) {
+      for (std::uint32_t c = 0; c < opposites_.size(); ++c) {
+        if (opposites_[c] != kNone && c < opposites_[c]) visit(c, opposites_[c]);
+      }
+    };
+    for_edges([&](std::uint32_t c, std::uint32_t d) {
+      if (!is_crease(c, d)) return;
+      is_crease_side[c] = true;
+      for (const std::uint32_t end : {c, d}) creases[triangles_[end]] = std::min(creases[triangles_[end]] + 1, 2);
+    });
+    for (std::size_t v = 0; v < creases.size(); ++v) may_split_[v] = creases[v] > 1;
+    for_edges([&](std::uint32_t c, std::uint32_t d) {
+      if (is_crease_side[c]) return;
+      if (may_split_[triangles_[c]]) join(c, next(d));
+      if (may_split_[triangles_[d]]) join(next(c), d);
+    });
   }
 
   CreaseNormals normals() {
@@ -57,8 +70,9 @@ class Creases {
     std::vector<std::uint32_t> first_sides(vertices, kNone);  // by their roots
     std::vector<bool> is_split(vertices);
     for (std::uint32_t c = 0; c < parents_.size(); ++c) {
-      const std::uint32_t vertex = triangles_[c], side = root(c);
+      const std::uint32_t vertex = triangles_[c];
       if (!may_split_[vertex]) continue;
+      const std::uint32_t side = root(c);
       if (side != c) {
         normals[c] = normals[side];  // a root is the first of its side
       } else if (first_sides[vertex] == kNone) {
@@ -156,8 +170,8 @@ class Creases {
 
   bool is_crease(std::uint32_t c, std::uint32_t d) const {
     const Vector &f = directions_[c / 3], &g = directions_[d / 3];
+    if (dot(f, g) > kLeastTurn) return false;
     const float turn = angle(f, g);
-    if (turn < kLeastTurn) return false;
     const Vector along = normalize(position(next(c)) - position(c));
     const auto is_between = [&](const Vector& n) {
       const Vector across = n - along * dot(n, along);
