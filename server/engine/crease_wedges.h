@@ -16,8 +16,8 @@ struct CreaseWedges {
   std::vector<Triangle> triangles;      // wedge numbers
 };
 
-// Creases are rows of edges at which the triangles turn by 25 degrees or more; a single one is none, and cuts nothing. Thin triangles, whose own direction says
-// nothing, take that of the triangle at their longest edge.
+// Creases are rows of edges at which the triangles turn by 25 degrees or more; a single one is none, and cuts nothing.
+// Thin triangles, whose own direction says nothing, take that of the triangle at their longest edge.
 CreaseWedges crease_wedges(const Mesh& mesh);
 
 }  // namespace isofield::engine
