@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t kMessageBytes = 1u << 20;
 constexpr std::uint32_t kMaxResolution = 1u << 20;
 
+// Cells. Nearer, float32 leaves nothing to gain.
+constexpr double kLeastTolerance = 1e-5, kMostTolerance = 0.1;
+
 absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const engine::MeshRequest& so_far,
                                       const blobtree::Tape& tape) {
   switch (request.cells_case()) {
@@ -35,6 +38,16 @@ absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const engi
   }
 }
 
+absl::StatusOr<double> read_tolerance(const v1::MeshRequest& request, double otherwise) {
+  if (!request.has_tolerance()) return otherwise;
+  if (!(request.tolerance() >= kLeastTolerance && request.tolerance() <= kMostTolerance)) {
+    return absl::InvalidArgumentError(absl::StrCat("tolerance = ", request.tolerance(), ": expected cells within [",
+                                                   kLeastTolerance, ", ", kMostTolerance, "], or none for ",
+                                                   otherwise));
+  }
+  return request.tolerance();
+}
+
 }  // namespace
 
 absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
@@ -43,10 +56,23 @@ absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& req
   ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request.bounds_min(), request.bounds_max()));
   ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
   ISOFIELD_RETURN_IF_ERROR(check_bounded(tape, r.bounds, r.iso));
+  ISOFIELD_ASSIGN_OR_RETURN(r.tolerance, read_tolerance(request, r.tolerance));
   r.with_normals = !request.omit_normals();
   r.max_cells = limits.max_mesh_cells;
   ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_cell_size(request, r, tape));
   return r;
+}
+
+absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRequest& request) {
+  if (!request.has_simplification_error()) return std::nullopt;
+  return read_length("simplification_error", request.simplification_error());
+}
+
+absl::Status check_not_simplified(const v1::MeshRequest& request) {
+  if (!request.has_simplification_error()) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "simplification_error = ", request.simplification_error(),
+      ": expected none, since bricks are the same whatever part they come with; Mesh and Measure simplify"));
 }
 
 std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,
@@ -75,6 +101,12 @@ void MeshTotals::add(const engine::MeshCells& part) {
   vertices += part.positions.size() / 3;
   triangles += part.corners.size() / 3;
   cells += part.cells;
+}
+
+void MeshTotals::add(const engine::Mesh& whole) {
+  vertices += whole.positions.size() / 3;
+  triangles += whole.triangles.size() / 3;
+  cells += whole.cells;
 }
 
 void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const engine::ResidentScene& scene,

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 
 #include "engine/mesh_cells.h"
 #include "engine/mesh_request.h"
@@ -16,6 +17,12 @@ namespace isofield::rpc {
 
 absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
                                                       const Limits& limits);
+
+// Model units; nothing: none is asked for.
+absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRequest& request);
+// Bricks are the same whatever part they come with, and so as they are made: INVALID_ARGUMENT where others are asked
+// for.
+absl::Status check_not_simplified(const v1::MeshRequest& request);
 
 // Bricks `first` and on: as many as a message holds. `vertex` and `triangle` are those before them, and move on.
 std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,
@@ -40,6 +47,7 @@ struct MeshTotals {
   std::uint64_t vertices = 0, triangles = 0, cells = 0;
 
   void add(const engine::MeshCells& part);
+  void add(const engine::Mesh& whole);
 };
 void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const engine::ResidentScene& scene,
                   std::uint64_t scene_version, v1::MeshSummary& summary);

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "engine/mesh_measure.h"
+#include "engine/mesh_simplifier.h"
 #include "engine/status_macros.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/mesh_messages.h"
@@ -56,6 +57,23 @@ engine::MeshCallbacks callbacks_of(grpc::ServerContext& context, grpc::ServerWri
   };
 }
 
+// The part of the progress that meshing makes, where the mesh is simplified after that.
+constexpr double kMeshingPart = 0.4;
+
+// The whole mesh, simplified where that is asked for.
+absl::StatusOr<engine::Mesh> make_mesh(engine::Mesher& mesher, const engine::ResidentScene& scene,
+                                       const engine::MeshRequest& request, std::optional<double> simplification_error,
+                                       const engine::MeshCallbacks& callbacks) {
+  if (!simplification_error) return mesher.mesh(scene, request, callbacks);
+  engine::MeshCallbacks meshing = callbacks, simplifying = callbacks;
+  if (callbacks.progress) {
+    meshing.progress = [&](double f) { callbacks.progress(kMeshingPart * f); };
+    simplifying.progress = [&](double f) { callbacks.progress(kMeshingPart + (1 - kMeshingPart) * f); };
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::Mesh mesh, mesher.mesh(scene, request, meshing));
+  return engine::simplify(mesh, *simplification_error, simplifying);
+}
+
 // Nothing: all.
 absl::StatusOr<std::optional<blobtree::BrickBox>> read_part(const v1::MeshBricksRequest& request) {
   const auto &first = request.first_brick(), &counts = request.brick_counts();
@@ -84,15 +102,30 @@ grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshReque
   if (!leased.ok()) return to_grpc(leased.status());
   const absl::StatusOr<engine::MeshRequest> r = read_mesh_request(*request, leased->scene->tape(), limits_);
   if (!r.ok()) return to_grpc(r.status());
-  engine::MeshJoiner joiner;
-  const absl::Status status =
-      engine_.mesher().cells(*leased->scene, *r, callbacks_of(*context, *writer), [&](const engine::MeshCells& cells) {
-        totals.add(cells);
-        const bool written = write_rows(*writer, cells.positions, &v1::MeshPart::mutable_positions) &&
-                             write_rows(*writer, cells.normals, &v1::MeshPart::mutable_normals) &&
-                             write_rows(*writer, joiner.number(cells), &v1::MeshPart::mutable_triangles);
-        return written ? absl::OkStatus() : client_gone();
-      });
+  const auto simplification_error = read_simplification_error(*request);
+  if (!simplification_error.ok()) return to_grpc(simplification_error.status());
+  const engine::MeshCallbacks callbacks = callbacks_of(*context, *writer);
+  const auto write = [&](const auto& part, const std::vector<std::uint32_t>& triangles) {
+    const bool written = write_rows(*writer, part.positions, &v1::MeshPart::mutable_positions) &&
+                         write_rows(*writer, part.normals, &v1::MeshPart::mutable_normals) &&
+                         write_rows(*writer, triangles, &v1::MeshPart::mutable_triangles);
+    return written ? absl::OkStatus() : client_gone();
+  };
+  absl::Status status;
+  if (*simplification_error) {
+    const auto mesh = make_mesh(engine_.mesher(), *leased->scene, *r, *simplification_error, callbacks);
+    status = mesh.status();
+    if (mesh.ok()) {
+      totals.add(*mesh);
+      status = write(*mesh, mesh->triangles);
+    }
+  } else {
+    engine::MeshJoiner joiner;
+    status = engine_.mesher().cells(*leased->scene, *r, callbacks, [&](const engine::MeshCells& cells) {
+      totals.add(cells);
+      return write(cells, joiner.number(cells));
+    });
+  }
   if (!status.ok()) return to_grpc(status);
   v1::MeshResponse response;
   fill_summary(totals, *r, *leased->scene, leased->version, *response.mutable_summary());
@@ -104,6 +137,7 @@ grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::
   MeshTotals totals;
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->mesh().scene());
   if (!leased.ok()) return to_grpc(leased.status());
+  if (const absl::Status status = check_not_simplified(request->mesh()); !status.ok()) return to_grpc(status);
   absl::StatusOr<engine::MeshRequest> r = read_mesh_request(request->mesh(), leased->scene->tape(), limits_);
   if (!r.ok()) return to_grpc(r.status());
   auto part = read_part(*request);
@@ -142,9 +176,12 @@ grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRe
   if (!leased.ok()) return to_grpc(leased.status());
   absl::StatusOr<engine::MeshRequest> r = read_mesh_request(*request, leased->scene->tape(), limits_);
   if (!r.ok()) return to_grpc(r.status());
+  const auto simplification_error = read_simplification_error(*request);
+  if (!simplification_error.ok()) return to_grpc(simplification_error.status());
   r->with_normals = false;
   const engine::MeshCallbacks callbacks{.cancelled = [&] { return context->IsCancelled(); }};
-  const absl::StatusOr<engine::Mesh> mesh = engine_.mesher().mesh(*leased->scene, *r, callbacks);
+  const absl::StatusOr<engine::Mesh> mesh =
+      make_mesh(engine_.mesher(), *leased->scene, *r, *simplification_error, callbacks);
   if (!mesh.ok()) return to_grpc(mesh.status());
 
   const engine::MeshMeasures measures = engine::measure(*mesh);
@@ -155,9 +192,7 @@ grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRe
     set_vector(measures.bounds.min, *response->mutable_bounds_min());
     set_vector(measures.bounds.max, *response->mutable_bounds_max());
   }
-  totals.vertices = mesh->positions.size() / 3;
-  totals.triangles = mesh->triangles.size() / 3;
-  totals.cells = mesh->cells;
+  totals.add(*mesh);
   fill_summary(totals, *r, *leased->scene, leased->version, *response->mutable_summary());
   return grpc::Status::OK;
 }

@@ -25,6 +25,7 @@ absl::Status MeshTracking::begin(const v1::MeshRequest& request) {
   if (request.scene().ref_case() != v1::SceneRef::kName) {
     return absl::InvalidArgumentError("begin.scene: expected the name of a scene that the server keeps");
   }
+  ISOFIELD_RETURN_IF_ERROR(check_not_simplified(request));
   scene_ = request.scene();
   ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(scene_));
   ISOFIELD_ASSIGN_OR_RETURN(request_, read_mesh_request(request, leased.scene->tape(), limits_));

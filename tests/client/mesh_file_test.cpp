@@ -6,9 +6,13 @@
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <map>
 
 #include "isofield/scene_file.h"
+#include "mesh_files/crease_normals.h"
 #include "test_support.h"
 
 namespace isofield {
@@ -62,6 +66,106 @@ TEST(MeshFile, GlbReadsBack) {
   EXPECT_EQ(model.scenes.at(0).nodes.size(), 1u);
 }
 
+// The cube [-1, 1]^3, n squares along each edge; vertices on edges have the normal of the last of their sides, as a
+// field's gradient has.
+Mesh cube_mesh(int n) {
+  Mesh mesh;
+  std::map<std::array<int, 3>, std::uint32_t> numbers;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int sign : {-1, 1}) {
+      const auto vertex = [&](int i, int j) {
+        std::array<int, 3> at{};
+        at[static_cast<std::size_t>(axis)] = sign > 0 ? n : 0;
+        at[static_cast<std::size_t>((axis + 1) % 3)] = i;
+        at[static_cast<std::size_t>((axis + 2) % 3)] = j;
+        const auto [place, is_new] = numbers.try_emplace(at, mesh.vertex_count());
+        if (is_new) {
+          for (const int x : at) mesh.positions.push_back(2.0f * static_cast<float>(x) / static_cast<float>(n) - 1);
+          mesh.normals.insert(mesh.normals.end(), 3, 0.0f);
+        }
+        float* const normal = &mesh.normals[3 * std::size_t{place->second}];
+        std::fill_n(normal, 3, 0.0f);
+        normal[axis] = static_cast<float>(sign);
+        return place->second;
+      };
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+          std::array<std::uint32_t, 4> q{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)};
+          if (sign < 0) std::swap(q[1], q[3]);
+          mesh.triangles.insert(mesh.triangles.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+// That the normal of each corner of a triangle is the triangle's, within a degree.
+void expect_flat_sides(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
+                       const std::vector<float>& normals, const std::vector<std::uint32_t>& corners) {
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    const auto at = [&](std::size_t c, int a) { return positions[3 * std::size_t{triangles[t + c]} + a]; };
+    for (int axis = 0; axis < 3; ++axis) {
+      if (at(0, axis) != at(1, axis) || at(0, axis) != at(2, axis)) continue;
+      for (std::size_t c = t; c < t + 3; ++c) {
+        EXPECT_GE(at(0, axis) * normals[3 * std::size_t{corners[c]} + axis], std::cos(M_PI / 180));
+      }
+    }
+  }
+}
+
+TEST(MeshFile, GlbHasANormalForEachSideOfACrease) {
+  for (const int n : {1, 8}) {
+    const Mesh mesh = cube_mesh(n);
+    const std::string glb = written(mesh, MeshFormat::kGlb);
+    tinygltf::Model model;
+    std::string error, warning;
+    ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(&model, &error, &warning,
+                                                          reinterpret_cast<const unsigned char*>(glb.data()),
+                                                          static_cast<unsigned>(glb.size())));
+    const auto& primitive = model.meshes[0].primitives.at(0);
+    const auto positions = array_of<float>(model, primitive.attributes.at("POSITION"));
+    const auto normals = array_of<float>(model, primitive.attributes.at("NORMAL"));
+    const auto triangles = array_of<std::uint32_t>(model, primitive.indices);
+    // 6 sides with vertices of their own.
+    EXPECT_EQ(positions.size(), 3u * 6 * (n + 1) * (n + 1));
+    EXPECT_EQ(normals.size(), positions.size());
+    expect_flat_sides(positions, triangles, normals, triangles);
+  }
+}
+
+TEST(MeshFile, ObjNamesANormalForEachSideOfACrease) {
+  const Mesh mesh = cube_mesh(1);
+  const CreaseNormals creases = crease_normals(mesh);
+  EXPECT_EQ(creases.normals.size(), 3u * 24);
+  expect_flat_sides(mesh.positions, mesh.triangles, creases.normals, creases.corners);
+  const std::string obj = written(mesh, MeshFormat::kObj);
+  EXPECT_EQ(std::vector<std::string>(absl::StrSplit(obj, "\nv ")).size(), 9u) << obj;
+  EXPECT_EQ(std::vector<std::string>(absl::StrSplit(obj, "\nvn ")).size(), 25u) << obj;
+}
+
+TEST(MeshFile, SmoothMeshesKeepTheirVertices) {
+  // Down to ten and eight sides around, which turn by 36 and 45 degrees.
+  for (const auto& [rings, sides] : {std::pair(40, 20), std::pair(10, 8)}) {
+    const Mesh mesh = torus_mesh(rings, sides, 3, 1);
+    const Mesh split = split_at_creases(mesh);
+    EXPECT_EQ(split.positions, mesh.positions);
+    EXPECT_EQ(split.normals, mesh.normals);
+    EXPECT_EQ(split.triangles, mesh.triangles);
+  }
+}
+
+TEST(MeshFile, CreasesCanStaySmooth) {
+  const Mesh mesh = cube_mesh(2);
+  const TemporaryDirectory directory;
+  auto file = OutputFile::create(directory.path("mesh"));
+  ASSERT_TRUE(write_mesh(mesh, MeshFormat::kObj, "cube", **file, CreaseShading::kSmooth).ok());
+  ASSERT_TRUE((*file)->commit().ok());
+  const std::string obj = *read_file(directory.path("mesh"));
+  EXPECT_EQ(std::vector<std::string>(absl::StrSplit(obj, "\nvn ")).size(), mesh.vertex_count() + 1);
+  EXPECT_TRUE(absl::StrContains(written(mesh, MeshFormat::kPly), "element vertex 26\n"));
+}
+
 TEST(MeshFile, AnEmptyMeshIsAValidGlb) {
   const std::string glb = written(Mesh(), MeshFormat::kGlb);
   tinygltf::Model model;
@@ -73,18 +177,18 @@ TEST(MeshFile, AnEmptyMeshIsAValidGlb) {
 }
 
 TEST(MeshFile, ObjHasAllVerticesAndFaces) {
-  Mesh mesh = torus_mesh(4, 3, 2.0f, 1.0f);
+  Mesh mesh = torus_mesh(8, 6, 2.0f, 1.0f);
   std::string obj = written(mesh, MeshFormat::kObj);
   std::vector<std::string> lines = absl::StrSplit(obj, '\n');
   const auto count = [&](const char* start) {
     return std::count_if(lines.begin(), lines.end(), [&](const auto& line) { return absl::StartsWith(line, start); });
   };
-  EXPECT_EQ(count("v "), 12);
-  EXPECT_EQ(count("vn "), 12);
-  EXPECT_EQ(count("f "), 24);
-  EXPECT_EQ(count("f 1//1 2//2 4//4"), 1) << obj;
+  EXPECT_EQ(count("v "), 48);
+  EXPECT_EQ(count("vn "), 48);
+  EXPECT_EQ(count("f "), 96);
+  EXPECT_EQ(count("f 1//1 2//2 7//7"), 1) << obj;
   mesh.normals.clear();
-  EXPECT_TRUE(absl::StrContains(written(mesh, MeshFormat::kObj), "\nf 1 2 4\n"));
+  EXPECT_TRUE(absl::StrContains(written(mesh, MeshFormat::kObj), "\nf 1 2 7\n"));
 }
 
 TEST(MeshFile, PlyAndStlHaveTheRightSizes) {

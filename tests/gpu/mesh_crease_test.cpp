@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/mesh_simplifier.h"
 #include "engine/mesher.h"
 #include "gpu/gpu_environment.h"
 #include "support/mesh_check.h"
@@ -72,10 +73,17 @@ dvec3 normal_of(const std::array<dvec3, 3>& corners) {
 // most where the third corner lies past the edge's end, as beside cells that the crease cuts a corner of. How much more
 // it leans than the side does over it is due to the cells, and falls with their size: 4 degrees at most at 64 cells.
 void expect_creases(const v1::Scene& scene, double cell, const std::vector<Side>& sides, double crease_length,
-                    double iso = 0.5) {
+                    double iso = 0.5, double simplification_error = 0) {
   static engine::Mesher mesher(device(), kernels());
-  const absl::StatusOr<Mesh> mesh = mesher.mesh(*resident(scene), {.cell_size = cell, .iso = iso}, {});
+  absl::StatusOr<Mesh> mesh = mesher.mesh(*resident(scene), {.cell_size = cell, .iso = iso}, {});
   ASSERT_TRUE(mesh.ok()) << mesh.status();
+  if (simplification_error > 0) {
+    const std::size_t before = mesh->triangles.size() / 3;
+    mesh = engine::simplify(*mesh, simplification_error, {});
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    std::cout << before << " triangles, simplified " << mesh->triangles.size() / 3 << "\n";
+    EXPECT_LT(mesh->triangles.size() / 3, before / 4);
+  }
   const test_support::MeshReport report = test_support::check_mesh(mesh->positions, mesh->triangles);
   ASSERT_TRUE(report.sound()) << report.text();
   EXPECT_EQ(report.zero_area, 0u);
@@ -200,6 +208,17 @@ TEST(MeshCreases, OfACubeLessASphere) {
     expect_creases(test_support::scene_of_nodes(text), kCell, sides, 24 + 2 * kPi * rim,
                    text.find("SIGNED") == std::string::npos ? 0.5 : 0);
   }
+}
+
+TEST(MeshCreases, StaySharpWhenSimplified) {
+  std::vector<Side> sides = box_sides({0.011, 0.007, -0.013}, 1);
+  sides.push_back(ball({0.03, -0.02, 1.3}, 0.9, -1));
+  const double height = 1.3 - 0.987, rim = std::sqrt(0.81 - height * height);
+  const v1::Scene scene = test_support::scene_of_nodes(R"([
+      {"name": "a", "box": {"center": [0.011, 0.007, -0.013], "half_size": [1, 1, 1], "range": 0.5}},
+      {"name": "b", "sphere": {"center": [0.03, -0.02, 1.3], "radius": 0.9, "range": 0.5}},
+      {"difference": {"children": ["a", "b"]}}])");
+  expect_creases(scene, kCell, sides, 24 + 2 * kPi * rim, 0.5, 0.01 * kCell);
 }
 
 TEST(MeshCreases, OfACleanUnionOfCylinders) {

@@ -1,10 +1,13 @@
 // Meshes made on the device.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iostream>
+#include <vector>
 
+#include "engine/mesh_simplifier.h"
 #include "engine/mesher.h"
 #include "engine/surface_cases.h"
 #include "gpu/gpu_environment.h"
@@ -49,6 +52,15 @@ void expect_on_surface(const Mesh& m, const v1::Scene& scene, double cell, doubl
 
 v1::Scene sphere_scene() {
   return test_support::scene_of_nodes(R"([{"sphere": {"center": [0.1, 0.2, -0.3], "radius": 1, "range": 0.5}}])");
+}
+
+v1::Scene blend_scene() {
+  return test_support::scene_of_nodes(R"([
+    {"name": "a", "segment": {"a": [-1, 0, 0], "b": [1, 0, 0], "radius_a": 0.3, "radius_b": 0.2, "range": 0.3}},
+    {"name": "b", "segment": {"a": [0, -1, 0], "b": [0, 1, 0], "radius_a": 0.25, "radius_b": 0.25, "range": 0.25}},
+    {"name": "c", "segment": {"a": [0, 0, 0], "b": [0.5, 0.5, 1], "radius_a": 0.25, "radius_b": 0.1, "range": 0.25}},
+    {"name": "t", "torus": {"major_radius": 0.8, "minor_radius": 0.15, "range": 0.2}},
+    {"gradient": {"children": ["a", "b", "c", "t"]}}])");
 }
 
 TEST(SurfaceCases, HaveAtMostOneDoubtfulFace) {
@@ -107,6 +119,28 @@ TEST(Mesher, MakesManifoldsOfRandomScenes) {
   }
 }
 
+TEST(Mesher, MakesManifoldsThatStayThatSimplified) {
+  for (const int nodes : {10, 120}) {
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      const v1::Scene scene = test_support::random_scene(50 * nodes + seed, {.nodes = nodes});
+      const double cell = 0.06;
+      const auto m = mesh(scene, {.cell_size = cell, .bounds = bounds_if_needed(scene)});
+      ASSERT_TRUE(m.ok()) << m.status();
+      if (m->triangles.empty()) continue;
+      const test_support::MeshReport before = test_support::check_mesh(m->positions, m->triangles);
+      for (const double error : {0.1, 2.0}) {
+        const auto simplified = engine::simplify(*m, error * cell, {});
+        ASSERT_TRUE(simplified.ok()) << simplified.status();
+        const test_support::MeshReport after = test_support::check_mesh(simplified->positions, simplified->triangles);
+        EXPECT_TRUE(after.sound()) << nodes << " nodes, seed " << seed << ", error " << error << ": " << after.text();
+        EXPECT_EQ(after.components, before.components) << nodes << " nodes, seed " << seed << ", error " << error;
+        EXPECT_EQ(after.genus(), before.genus()) << nodes << " nodes, seed " << seed << ", error " << error;
+        EXPECT_LE(after.zero_area, before.zero_area);
+      }
+    }
+  }
+}
+
 TEST(Mesher, MakesManifoldsOfNoise) {
   // Balls about as large as a cell: every case of the tables occurs, doubtful faces next to one another too.
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
@@ -131,18 +165,38 @@ TEST(Mesher, MakesManifoldsOfNoise) {
 }
 
 TEST(Mesher, KeepsVerticesOnTheSurfaceOfBlends) {
-  const v1::Scene scene = test_support::scene_of_nodes(R"([
-    {"name": "a", "segment": {"a": [-1, 0, 0], "b": [1, 0, 0], "radius_a": 0.3, "radius_b": 0.2, "range": 0.3}},
-    {"name": "b", "segment": {"a": [0, -1, 0], "b": [0, 1, 0], "radius_a": 0.25, "radius_b": 0.25, "range": 0.25}},
-    {"name": "c", "segment": {"a": [0, 0, 0], "b": [0.5, 0.5, 1], "radius_a": 0.25, "radius_b": 0.1, "range": 0.25}},
-    {"name": "t", "torus": {"major_radius": 0.8, "minor_radius": 0.15, "range": 0.2}},
-    {"gradient": {"children": ["a", "b", "c", "t"]}}])");
+  const v1::Scene scene = blend_scene();
   for (const double cell : {0.1, 0.04}) {
     const auto m = mesh(scene, {.cell_size = cell});
     ASSERT_TRUE(m.ok()) << m.status();
     const test_support::MeshReport report = test_support::check_mesh(m->positions, m->triangles);
     EXPECT_TRUE(report.sound()) << report.text();
     expect_on_surface(*m, scene, cell);
+  }
+}
+
+TEST(Mesher, BringsVerticesAsNearAsTheToleranceSays) {
+  const v1::Scene scene = blend_scene();
+  const reference::Evaluator exact(test_support::read_or_die(scene));
+  const double cell = 0.02;
+  double last = 1;
+  for (const double tolerance : {0.1, 1e-2, 1e-3, 1e-4, 1e-5}) {
+    const auto m = mesh(scene, {.cell_size = cell, .tolerance = tolerance});
+    ASSERT_TRUE(m.ok()) << m.status();
+    EXPECT_TRUE(test_support::check_mesh(m->positions, m->triangles).sound());
+    std::vector<double> distances;
+    for (std::size_t v = 0; v < m->positions.size(); v += 12) {
+      const reference::Sample s = exact.evaluate({m->positions[v], m->positions[v + 1], m->positions[v + 2]});
+      distances.push_back(std::abs(s.value - 0.5) / length(s.gradient) / cell);
+    }
+    std::sort(distances.begin(), distances.end());
+    // Where the surface runs along a face of a cell, its vertices keep off that face, whatever is asked.
+    const double most = distances[distances.size() * 97 / 100];
+    std::cout << "tolerance " << tolerance << ": 97 % within " << most << ", the furthest " << distances.back() << "\n";
+    EXPECT_LE(most, 1.5 * tolerance);
+    EXPECT_LE(distances.back(), 1.1 * std::max(tolerance, 4e-3));
+    EXPECT_LT(most, last);
+    last = most;
   }
 }
 

@@ -204,6 +204,20 @@ TEST_F(BadRequest, BadMeshesAreRefused) {
     request.set_iso(iso);
     refused(request, {absl::StrCat("iso = ", iso), "]0, 1["});
   }
+  for (const double tolerance : {0.0, -1e-3, 9e-6, 0.11, nan, infinity}) {
+    request = mesh_request(named("ball"), 0.1);
+    request.set_tolerance(tolerance);
+    refused(request, {absl::StrCat("tolerance = ", tolerance), "[1e-05, 0.1]", "0.001"});
+  }
+  for (const double error : {0.0, -1.0, nan, infinity}) {
+    request = mesh_request(named("ball"), 0.1);
+    request.set_simplification_error(error);
+    refused(request, {absl::StrCat("simplification_error = ", error), "> 0"});
+    grpc::ClientContext context;
+    v1::MeasureResponse measured;
+    expect_refused(peer_.meshes().Measure(&context, request, &measured), StatusCode::INVALID_ARGUMENT,
+                   {absl::StrCat("simplification_error = ", error), "> 0"});
+  }
   const struct {
     std::vector<double> low, high;
     std::vector<std::string> parts;

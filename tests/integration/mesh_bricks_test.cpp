@@ -134,6 +134,12 @@ TEST_F(MeshBricks, PartsThatAreNoneAreRefused) {
   refused = client_.mesh_bricks(request).status();
   EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_NE(refused.message().find("brick_counts[1] = 0"), std::string::npos) << refused;
+  v1::MeshBricksRequest simplified;
+  *simplified.mutable_mesh() = mesh_request(inlined(Ball().scene()), 0.1);
+  simplified.mutable_mesh()->set_simplification_error(0.1);
+  refused = client_.mesh_bricks(simplified).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_NE(refused.message().find("simplification_error = 0.1: expected none"), std::string::npos) << refused;
   *request.mutable_mesh()->mutable_scene() = named("none");
   EXPECT_EQ(client_.mesh_bricks(request).status().code(), absl::StatusCode::kNotFound);
 }
@@ -249,6 +255,9 @@ TEST_F(MeshBricks, WhatIsWrongWithAStreamIsSaid) {
   expect_refused(track({v1::TrackMeshRequest()}), StatusCode::INVALID_ARGUMENT, {"first message", "begin"});
   expect_refused(track({begin_of(inlined(Ball().scene()))}), StatusCode::INVALID_ARGUMENT, {"begin.scene", "name"});
   expect_refused(track({begin_of(named("none"))}), StatusCode::NOT_FOUND, {"none"});
+  v1::TrackMeshRequest simplified = begin_of(named("ball"));
+  simplified.mutable_begin()->set_simplification_error(0.1);
+  expect_refused(track({simplified}), StatusCode::INVALID_ARGUMENT, {"simplification_error = 0.1", "none", "bricks"});
   const v1::TrackMeshRequest begin = begin_of(named("ball"));
   expect_refused(track({begin, begin}), StatusCode::INVALID_ARGUMENT, {"edit or refresh"});
   edit.mutable_edit()->mutable_edits(0)->set_field("girth");

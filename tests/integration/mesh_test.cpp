@@ -124,6 +124,63 @@ TEST_F(Mesh, FollowsTheIsoValue) {
   }
 }
 
+TEST_F(Mesh, VerticesAreAsNearAsTheToleranceSays) {
+  v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.05);
+  const ReceivedMesh usual = peer_.mesh(request);
+  request.set_tolerance(1e-3);
+  EXPECT_EQ(peer_.mesh(request).positions, usual.positions) << "the default";
+  double last = 1;
+  for (const double tolerance : {0.1, 1e-3}) {
+    request.set_tolerance(tolerance);
+    const ReceivedMesh received = peer_.mesh(request);
+    expect_sound(received);
+    double sum = 0;
+    for (std::size_t v = 0; v < received.positions.size(); v += 3) {
+      const float* const p = &received.positions[v];
+      const double r = std::hypot(p[0] - ball_.center[0], p[1] - ball_.center[1], p[2] - ball_.center[2]);
+      sum += std::abs(r - ball_.radius) / 0.05;
+    }
+    const double mean = 3 * sum / static_cast<double>(received.positions.size());
+    EXPECT_LE(mean, tolerance);
+    EXPECT_LT(mean, last / 2);
+    last = mean;
+  }
+}
+
+TEST_F(Mesh, IsSimplifiedWithinTheError) {
+  v1::MeshRequest request = mesh_request(inlined(ball_.scene()), 0.04);
+  const ReceivedMesh whole = peer_.mesh(request);
+  request.set_simplification_error(0.004);
+  const ReceivedMesh received = peer_.mesh(request);
+  expect_sound(received);
+  EXPECT_LT(received.triangles.size(), whole.triangles.size() / 4);
+  EXPECT_EQ(received.summary.vertices(), received.positions.size() / 3);
+  EXPECT_EQ(received.summary.triangles(), received.triangles.size() / 3);
+  EXPECT_EQ(received.summary.cells(), whole.summary.cells());
+  EXPECT_EQ(received.normals.size(), received.positions.size());
+  for (std::size_t t = 0; t < received.triangles.size(); t += 3) {
+    std::array<double, 3> middle{};
+    for (std::size_t c = t; c < t + 3; ++c) {
+      for (int a = 0; a < 3; ++a) middle[a] += received.positions[3 * std::size_t{received.triangles[c]} + a] / 3.0;
+    }
+    const double r = std::hypot(middle[0] - ball_.center[0], middle[1] - ball_.center[1], middle[2] - ball_.center[2]);
+    // And how far the lattice's own triangles lie off.
+    EXPECT_NEAR(r, ball_.radius, 1.2 * 0.004 + 0.04 * 0.04 / ball_.radius);
+  }
+  EXPECT_EQ(peer_.mesh(request).positions, received.positions);
+  EXPECT_EQ(peer_.mesh(request).triangles, received.triangles);
+
+  grpc::ClientContext context;
+  v1::MeasureResponse measured;
+  ASSERT_TRUE(ok(peer_.meshes().Measure(&context, request, &measured)));
+  EXPECT_EQ(measured.summary().triangles(), received.summary.triangles());
+  EXPECT_NEAR(measured.volume(), test_support::check_mesh(received.positions, received.triangles).volume, 1e-9);
+  request.set_omit_normals(true);
+  const ReceivedMesh without = peer_.mesh(request);
+  EXPECT_TRUE(without.normals.empty());
+  EXPECT_EQ(without.triangles, received.triangles);
+}
+
 TEST_F(Mesh, OfNothingIsEmpty) {
   const v1::Scene apart = test_support::scene_of_nodes(R"(
     {"name": "a", "sphere": {"radius": 1, "range": 1}},

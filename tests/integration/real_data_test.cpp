@@ -23,9 +23,10 @@ using test_support::shared_file;
 
 class RealData : public testing::Test {
  protected:
+  // Its vertices and normals as the server has them.
   GlbMesh mesh(const std::string& file, double cell) {
     const Outcome outcome = run({ISOFIELD_COMMAND, "--server", shared_daemon().address(), "mesh", shared_file(file),
-                                 "--cell", absl::StrCat(cell), "-o", directory_.path("mesh.glb")});
+                                 "--cell", absl::StrCat(cell), "--smooth-creases", "-o", directory_.path("mesh.glb")});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
     std::cout << outcome.errors << outcome.output;
     return read_glb(directory_.path("mesh.glb"));

@@ -72,13 +72,12 @@ TEST(PointGrid, SortsEveryPointToATapeThatGivesItsField) {
 TEST(PointGrid, IsNoneWhereMostPrimitivesOverlap) {
   v1::Scene scene;
   v1::Node sum;
-  for (int i = 0; i < 1500; ++i) {
+  Random random(1);
+  for (int i = 0; i < 3000; ++i) {
     v1::Sphere& s = *scene.add_nodes()->mutable_sphere();
-    s.add_center(i * 1e-4);
-    s.add_center(0);
-    s.add_center(0);
-    s.set_radius(1);
-    s.set_range(1 + (i * 617 % 1500) * 1e-3);
+    for (int a = 0; a < 3; ++a) s.add_center(random.number(-0.3, 0.3));
+    s.set_radius(random.number(0.5, 1));
+    s.set_range(0.5);
     sum.mutable_sum()->add_children(test_support::place(i));
   }
   *scene.add_nodes() = sum;

@@ -14,7 +14,7 @@
 namespace isofield {
 namespace {
 
-absl::Status mesh(const Context& context, const MeshFlags& flags, const std::string& output) {
+absl::Status mesh(const Context& context, const MeshFlags& flags, const std::string& output, CreaseShading shading) {
   const auto format = mesh_format(output);
   if (!format) {
     return usage_error(
@@ -27,7 +27,7 @@ absl::Status mesh(const Context& context, const MeshFlags& flags, const std::str
   const auto start = std::chrono::steady_clock::now();
   auto file = OutputFile::create(output);
   if (!file.ok()) return file_error(file.status());
-  absl::Status status = write_mesh(*mesh, *format, stem(flags.scene), **file);
+  absl::Status status = write_mesh(*mesh, *format, stem(flags.scene), **file, shading);
   const std::uint64_t bytes = (*file)->bytes();
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
@@ -55,13 +55,19 @@ void add_mesh_command(CLI::App& app, Context& context) {
   struct Arguments {
     MeshFlags flags;
     std::string output;
+    bool smooth_creases = false;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("mesh", "Mesh the surface into a file");
   arguments->flags.add_to(*command);
   command->add_option("-o,--output", arguments->output, "Mesh to write (.glb, .obj, .ply, .stl)")->required();
   command->add_flag("--no-normals", arguments->flags.omit_normals, "Leave the normals out");
-  command->callback([&context, arguments] { context.outcome = mesh(context, arguments->flags, arguments->output); });
+  command->add_flag("--smooth-creases", arguments->smooth_creases,
+                    "One normal a vertex, on creases too (default: one for each side, in .glb and .obj)");
+  command->callback([&context, arguments] {
+    context.outcome = mesh(context, arguments->flags, arguments->output,
+                           arguments->smooth_creases ? CreaseShading::kSmooth : CreaseShading::kSharp);
+  });
 }
 
 }  // namespace isofield

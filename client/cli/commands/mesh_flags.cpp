@@ -28,6 +28,14 @@ void MeshFlags::add_to(CLI::App& command) {
   command.add_option("--iso", iso,
                      "Iso value of the surface: within ]0, 1[ of a positive field (default: 0.5), any of a signed one "
                      "(default: 0)");
+  command
+      .add_option("--tolerance", tolerance,
+                  "How far off the surface vertices may be left, in cells, within [1e-5, 0.1] (default: 1e-3)")
+      ->check(CLI::Range(1e-5, 0.1));
+  command
+      .add_option("--simplify", simplify,
+                  "Fewer triangles, within this distance of the mesh, in model units (default: all of them)")
+      ->check(CLI::Validator(check_positive, "above 0"));
   import.add_to(command);
 }
 
@@ -45,6 +53,8 @@ absl::StatusOr<v1::MeshRequest> MeshFlags::message() const {
     (i < 3 ? request.mutable_bounds_min() : request.mutable_bounds_max())->Add(bounds[i]);
   }
   if (iso) request.set_iso(*iso);
+  if (tolerance) request.set_tolerance(*tolerance);
+  if (simplify) request.set_simplification_error(*simplify);
   request.set_omit_normals(omit_normals);
   return request;
 }

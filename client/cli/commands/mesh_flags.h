@@ -17,7 +17,7 @@ struct MeshFlags {
   std::optional<double> cell;
   std::optional<std::uint32_t> resolution;
   std::vector<double> bounds;  // x0, y0, z0, x1, y1, z1, or empty
-  std::optional<double> iso;
+  std::optional<double> iso, tolerance, simplify;
   bool omit_normals = false;
   ImportFlags import;
 

@@ -13,6 +13,7 @@
 #include "commands/mesh_flags.h"
 #include "exit_codes.h"
 #include "json_output.h"
+#include "mesh_files/crease_normals.h"
 #include "output_file.h"
 
 namespace isofield {
@@ -56,7 +57,7 @@ absl::Status render_scene(const Context& context, const RenderArguments& argumen
   const auto mesh = arguments.flags.request(context, seconds);
   if (!mesh.ok()) return mesh.status();
   const auto start = std::chrono::steady_clock::now();
-  const auto image = render(*mesh, options);
+  const auto image = render(split_at_creases(*mesh), options);
   if (!image.ok()) return image.status();
   auto file = OutputFile::create(arguments.output);
   if (!file.ok()) return file_error(file.status());

@@ -2,6 +2,8 @@
 
 #include <absl/strings/match.h>
 
+#include "mesh_files/crease_normals.h"
+
 namespace isofield {
 
 std::optional<MeshFormat> mesh_format(const std::string& path) {
@@ -12,12 +14,13 @@ std::optional<MeshFormat> mesh_format(const std::string& path) {
   return std::nullopt;
 }
 
-absl::Status write_mesh(const Mesh& mesh, MeshFormat format, const std::string& name, OutputFile& file) {
+absl::Status write_mesh(const Mesh& mesh, MeshFormat format, const std::string& name, OutputFile& file,
+                        CreaseShading shading) {
   switch (format) {
     case MeshFormat::kGlb:
-      return write_glb(mesh, name, file);
+      return write_glb(shading == CreaseShading::kSharp ? split_at_creases(mesh) : mesh, name, file);
     case MeshFormat::kObj:
-      return write_obj(mesh, name, file);
+      return write_obj(mesh, name, shading, file);
     case MeshFormat::kPly:
       return write_ply(mesh, file);
     case MeshFormat::kStl:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "mesh_files/crease_normals.h"
 #include "mesh_files/mesh_file.h"
 
 namespace isofield {
@@ -51,14 +52,17 @@ absl::Status write_vectors(const char* keyword, const std::vector<float>& number
 
 }  // namespace
 
-absl::Status write_obj(const Mesh& mesh, const std::string& name, OutputFile& file) {
+absl::Status write_obj(const Mesh& mesh, const std::string& name, CreaseShading shading, OutputFile& file) {
+  const bool is_sharp = shading == CreaseShading::kSharp && !mesh.normals.empty();
+  const CreaseNormals creases =
+      is_sharp ? crease_normals(mesh) : CreaseNormals{.normals = mesh.normals, .corners = mesh.triangles};
   std::string object = name;
   std::replace_if(
       object.begin(), object.end(), [](unsigned char c) { return c <= ' '; }, '_');
   absl::Status status = file.write(absl::StrCat("# isofield\no ", object, "\n"));
   TextBlock block(file);
   status.Update(write_vectors("v", mesh.positions, block));
-  status.Update(write_vectors("vn", mesh.normals, block));
+  status.Update(write_vectors("vn", creases.normals, block));
   for (std::size_t i = 0; status.ok() && i < mesh.triangles.size(); i += 3) {
     block.add("f");
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -67,7 +71,7 @@ absl::Status write_obj(const Mesh& mesh, const std::string& name, OutputFile& fi
       block.add(vertex);
       if (!mesh.normals.empty()) {
         block.add("//");
-        block.add(vertex);
+        block.add(creases.corners[i + corner] + std::uint64_t{1});
       }
     }
     status = block.end_line();
