@@ -3,24 +3,29 @@
 namespace isofield::shaders {
 namespace {
 
-#include "points_value.inc"
-#include "points_gradient.inc"
-#include "grid_value.inc"
 #include "grid_gradient.inc"
-#include "mesh_sample.inc"
+#include "grid_value.inc"
 #include "mesh_classify.inc"
 #include "mesh_connect.inc"
+#include "mesh_creases_narrow.inc"
+#include "mesh_creases_wide.inc"
+#include "mesh_crossings_narrow.inc"
+#include "mesh_crossings_wide.inc"
 #include "mesh_list.inc"
-#include "mesh_crossings.inc"
-#include "mesh_place.inc"
-#include "mesh_creases.inc"
-#include "mesh_vertices.inc"
+#include "mesh_normals_narrow.inc"
+#include "mesh_normals_wide.inc"
+#include "mesh_place_narrow.inc"
+#include "mesh_place_wide.inc"
 #include "mesh_quads.inc"
-#include "mesh_normals.inc"
+#include "mesh_sample.inc"
 #include "mesh_triangles.inc"
-#include "operator_eval.inc"
+#include "mesh_vertices_narrow.inc"
+#include "mesh_vertices_wide.inc"
 #include "operator_blend_probe.inc"
+#include "operator_eval.inc"
 #include "operator_volume_probe.inc"
+#include "points_gradient.inc"
+#include "points_value.inc"
 #include "sampled_volume.inc"
 #include "smooth_volume_high.inc"
 #include "smooth_volume_low.inc"
@@ -37,12 +42,12 @@ const Spirv kMeshSample{mesh_sample};
 const Spirv kMeshClassify{mesh_classify};
 const Spirv kMeshConnect{mesh_connect};
 const Spirv kMeshList{mesh_list};
-const Spirv kMeshCrossings{mesh_crossings};
-const Spirv kMeshPlace{mesh_place};
-const Spirv kMeshCreases{mesh_creases};
-const Spirv kMeshVertices{mesh_vertices};
+const InRounds kMeshCrossings{mesh_crossings_wide, mesh_crossings_narrow};
+const InRounds kMeshPlace{mesh_place_wide, mesh_place_narrow};
+const InRounds kMeshCreases{mesh_creases_wide, mesh_creases_narrow};
+const InRounds kMeshVertices{mesh_vertices_wide, mesh_vertices_narrow};
 const Spirv kMeshQuads{mesh_quads};
-const Spirv kMeshNormals{mesh_normals};
+const InRounds kMeshNormals{mesh_normals_wide, mesh_normals_narrow};
 const Spirv kMeshTriangles{mesh_triangles};
 const Spirv kOperatorEval{operator_eval};
 const Spirv kOperatorBlendProbe{operator_blend_probe};

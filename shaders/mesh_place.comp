@@ -6,7 +6,7 @@
 
 #include "mesh_crossings.glsl"
 
-layout(local_size_x = 32) in;
+layout(local_size_x = INVOCATIONS) in;
 
 layout(std430, binding = 5) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
 layout(std430, binding = 9) buffer Vertices { uint vertex_list[]; };  // mesh_constants.glsl

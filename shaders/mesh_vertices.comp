@@ -6,7 +6,7 @@
 #include "interpreter.glsl"
 #include "mesh_constants.glsl"
 
-layout(local_size_x = 32) in;
+layout(local_size_x = INVOCATIONS) in;
 
 layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };
 layout(std430, binding = 6) readonly buffer Cells { uint cells_in[]; };

@@ -47,6 +47,10 @@ KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
   return kind;
 }
 
+const shaders::Spirv& KernelCache::of(const shaders::InRounds& shader) const {
+  return device_.description().type == "cpu" ? shader.narrow : shader.wide;
+}
+
 absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
   const Key key{reinterpret_cast<std::uintptr_t>(shader.data()),
                 kind.operand_set,

@@ -42,6 +42,8 @@ class KernelCache {
   explicit KernelCache(gpu::Device& device) : device_(device) {}
 
   absl::StatusOr<const gpu::Pipeline*> get(const shaders::Spirv& shader, const KernelKind& kind = {});
+  // That which suits the device.
+  const shaders::Spirv& of(const shaders::InRounds& shader) const;
 
  private:
   using Compiled = absl::StatusOr<std::shared_ptr<const gpu::Pipeline>>;

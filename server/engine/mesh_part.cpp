@@ -242,13 +242,13 @@ class Run {
     std::vector<Buffer> keep;
     keep.reserve(2);
     ISOFIELD_RETURN_IF_ERROR(
-        run_bricks(session, shaders::kMeshCrossings, slab.first, slab.count, is_wanted, keep,
+        run_bricks(session, kernels_.of(shaders::kMeshCrossings), slab.first, slab.count, is_wanted, keep,
                    {{4, &bricks_}, {6, &slab.samples}, {8, &starts_buffer_}, {9, &quad_list_}, {10, &crossings_}}));
     return session.run();
   }
 
   absl::Status place_vertices() {
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshPlace));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(kernels_.of(shaders::kMeshPlace)));
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
     ISOFIELD_ASSIGN_OR_RETURN(positions_, session.scratch(std::size_t{12} * starts_.back()[0]));
     ISOFIELD_ASSIGN_OR_RETURN(kinds_buffer_, session.upload(std::span(kinds_)));
@@ -290,7 +290,8 @@ class Run {
       }
       std::vector<Buffer> keep;
       keep.reserve(6);
-      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshCreases, slab.first, slab.count, has_creases, keep,
+      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, kernels_.of(shaders::kMeshCreases), slab.first, slab.count,
+                                          has_creases, keep,
                                           {{4, &bricks_},
                                            {6, &cells_},
                                            {7, &neighbours_},
@@ -299,7 +300,8 @@ class Run {
                                            {10, &crossings_},
                                            {11, &positions_}}));
       session.commands().barrier();
-      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshVertices, slab.first, slab.count, has_vertices, keep,
+      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, kernels_.of(shaders::kMeshVertices), slab.first, slab.count,
+                                          has_vertices, keep,
                                           {{4, &bricks_},
                                            {6, &cells_},
                                            {7, &surface_cases_},
@@ -326,7 +328,7 @@ class Run {
   template <class Wanted>
   absl::Status find_normals(Session& session, const Slab& slab, Wanted is_wanted, const Buffer& starts,
                             const Buffer& positions, const Buffer& normals, std::vector<Buffer>& keep) {
-    return run_bricks(session, shaders::kMeshNormals, slab.first, slab.count, is_wanted, keep,
+    return run_bricks(session, kernels_.of(shaders::kMeshNormals), slab.first, slab.count, is_wanted, keep,
                       {{4, &bricks_}, {6, &starts}, {7, &positions}, {8, &normals}});
   }
 
