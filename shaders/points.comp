@@ -18,11 +18,12 @@ layout(push_constant) uniform Constants {
   uint first_job;
   uint last_job;    // surplus subgroups repeat it
   uint is_sorted;   // 0: points are those of the batch
+  uint job_points;  // the subgroup's size
 };
 
 void main() {
-  uvec4 job = jobs[min(first_job + gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID, last_job)];
-  uint n = min(job.z + gl_SubgroupInvocationID, job.w);  // surplus invocations repeat the last point
+  uvec4 job = jobs[min(first_job + gl_GlobalInvocationID.x / job_points, last_job)];
+  uint n = min(job.z + gl_GlobalInvocationID.x % job_points, job.w);  // surplus invocations repeat the last point
   vec4 placed = sorted[is_sorted != 0u ? n : 0u];
   uint at = is_sorted != 0u ? 0u : 3u * n;
   vec3 p = vec3(points[at], points[at + 1u], points[at + 2u]);

@@ -10,13 +10,15 @@ namespace {
 
 // Points asked of a scene before it is given an index: to sort as many without one takes as long as to make one.
 constexpr std::uint64_t kHotPoints = 1u << 19;
+// Points of a batch that waits for one to be made, some 30 ms: others join it while it holds the device.
+constexpr std::uint64_t kLargeBatch = 1u << 14;
 // Bricks a point of a batch beyond which passing over them takes longer than sorting the batch by itself.
 constexpr std::uint64_t kBricksPerPoint = 4;
 // Tapes of fewer instructions are run whole (blobtree/point_bins.cpp).
 constexpr std::size_t kShortTape = 12;
 
 constexpr std::size_t kMostEntries = 64;
-constexpr std::size_t kMostInstructions = 4 * blobtree::PointGrid::kMostInstructions;  // that are kept
+constexpr std::size_t kMostInstructions = blobtree::PointGrid::kMostInstructions;  // of all that are kept
 
 }  // namespace
 
@@ -74,7 +76,7 @@ absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndexCache::find(gpu::Dev
     Entry& e = entry(scene);
     e.points += points;
     if (e.index) return fits(*e.index) ? e.index : nullptr;
-    if (e.is_tried || e.points < kHotPoints) return nullptr;
+    if (e.is_tried || e.points < kHotPoints || points < kLargeBatch) return nullptr;
     e.is_tried = true;  // others go on without one meanwhile
   }
   absl::StatusOr<std::shared_ptr<const PointIndex>> made = PointIndex::make(device, scene, cancelled);

@@ -39,7 +39,8 @@ void set_vector(const blobtree::dvec3& v, Numbers& out) {
 
 absl::StatusOr<double> read_length(const char* name, double length) {
   if (!(length > 0 && is_coordinate(length))) {
-    return absl::InvalidArgumentError(absl::StrCat(name, " = ", length, ": expected a finite length > 0"));
+    return absl::InvalidArgumentError(
+        absl::StrCat(name, " = ", length, ": expected a length within ]0, ", blobtree::kMaxCoordinate, "]"));
   }
   return length;
 }
