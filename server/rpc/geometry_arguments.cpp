@@ -40,7 +40,7 @@ void set_vector(const blobtree::dvec3& v, Numbers& out) {
 absl::StatusOr<double> read_length(const char* name, double length) {
   if (!(length > 0 && is_coordinate(length))) {
     return absl::InvalidArgumentError(
-        absl::StrCat(name, " = ", length, ": expected a length within ]0, ", blobtree::kMaxCoordinate, "]"));
+        absl::StrCat(name, " = ", length, ": expected a length > 0, at most ", blobtree::kMaxCoordinate));
   }
   return length;
 }
