@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/disjoint_sets.h"
+
 namespace isofield::engine {
 namespace {
 
@@ -14,16 +16,12 @@ constexpr double kCosine = 0.9063077870366499;  // 25 degrees
 constexpr double kThin = 0.06;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-std::uint32_t next(std::uint32_t corner) {
-  return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-
 // Of the side that begins at each corner, the corner at which its opposite begins.
 std::vector<std::uint32_t> find_twins(std::span<const std::uint32_t> corners, std::size_t vertices) {
   // Sides by the lower of their vertices.
   std::vector<std::uint32_t> starts(vertices + 1), sides(corners.size()), twins(corners.size(), kNone);
-  const auto low = [&](std::uint32_t c) { return std::min(corners[c], corners[next(c)]); };
-  const auto high = [&](std::uint32_t c) { return std::max(corners[c], corners[next(c)]); };
+  const auto low = [&](std::uint32_t c) { return std::min(corners[c], corners[next_corner(c)]); };
+  const auto high = [&](std::uint32_t c) { return std::max(corners[c], corners[next_corner(c)]); };
   for (std::uint32_t c = 0; c < corners.size(); ++c) ++starts[low(c) + 1];
   std::partial_sum(starts.begin(), starts.end(), starts.begin());
   std::vector<std::uint32_t> at(starts.begin(), starts.end() - 1);
@@ -47,14 +45,14 @@ std::vector<dvec3> face_directions(std::span<const float> positions, std::span<c
     double longest = 0;
     std::uint32_t side = 0;
     for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
-      const double edge = length(position_of(positions, corners[next(c)]) - position_of(positions, corners[c]));
+      const double edge = length(position_of(positions, corners[next_corner(c)]) - position_of(positions, corners[c]));
       if (edge > longest) longest = edge, side = c;
     }
     const double size = length(n);
     if (size > 0) own[t] = n * (1 / size);
     if (size < kThin * longest * longest && twins[side] != kNone) beside[t] = twins[side] / 3;
   }
-  std::vector<dvec3> directions = own;
+  std::vector<dvec3> directions(count);
   for (std::uint32_t t = 0; t < count; ++t) {
     std::uint32_t from = t;
     for (int step = 0; step < 4 && beside[from] != kNone; ++step) from = beside[from];
@@ -69,22 +67,12 @@ CreaseWedges crease_wedges(const Mesh& mesh) {
   const auto corner_count = static_cast<std::uint32_t>(mesh.triangles.size());
   const std::vector<std::uint32_t> twins = find_twins(mesh.triangles, mesh.positions.size() / 3);
   const std::vector<dvec3> directions = face_directions(mesh.positions, mesh.triangles, twins);
-  // Corners that smooth edges join.
-  std::vector<std::uint32_t> parents(corner_count);
-  std::iota(parents.begin(), parents.end(), 0u);
-  const auto root = [&](std::uint32_t c) {
-    while (parents[c] != c) c = parents[c] = parents[parents[c]];
-    return c;
-  };
-  const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    parents[std::max(a, b)] = std::min(a, b);
-  };
+  DisjointSets corners(corner_count);  // that smooth edges join
   for (std::uint32_t c = 0; c < corner_count; ++c) {
     const std::uint32_t d = twins[c];
     if (d == kNone || d < c || dot(directions[c / 3], directions[d / 3]) <= kCosine) continue;
-    join(c, next(d));
-    join(next(c), d);
+    corners.join(c, next_corner(d));
+    corners.join(next_corner(c), d);
   }
   CreaseWedges wedges;
   wedges.vertices.resize(mesh.positions.size() / 3);
@@ -94,8 +82,8 @@ CreaseWedges crease_wedges(const Mesh& mesh) {
   wedges.triangles.resize(corner_count / 3);
   for (std::uint32_t c = 0; c < corner_count; ++c) {
     const std::uint32_t vertex = mesh.triangles[c];
-    if (root(c) != c) {
-      wedge_of[c] = wedge_of[root(c)];  // a root comes before what hangs on it
+    if (const std::uint32_t first = corners.root(c); first != c) {
+      wedge_of[c] = wedge_of[first];
     } else if (!is_taken[vertex]) {
       is_taken[vertex] = true;
       wedge_of[c] = vertex;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/mesh_cells.h"
-#include "engine/triangle_tree.h"
+#include "engine/triangle.h"
 
 namespace isofield::engine {
 

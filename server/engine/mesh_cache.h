@@ -3,14 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 #include "engine/mesh_cells.h"
 #include "engine/mesh_request.h"
-#include "engine/resident_scene.h"
+#include "engine/scene_entries.h"
 
 namespace isofield::engine {
 
@@ -34,7 +33,7 @@ class MeshCache {
   };
   const std::uint64_t max_bytes_;
   std::mutex mutex_;
-  std::list<Entry> entries_;  // the last used first
+  SceneEntries<Entry> entries_;
 };
 
 }  // namespace isofield::engine

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/disjoint_sets.h"
+
 namespace isofield::engine {
 namespace {
 
@@ -41,17 +43,12 @@ struct Side {
   bool is_rising;
 };
 
-std::uint32_t next(std::uint32_t corner) {
-  return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-
 // The edges of triangles, and the fans around their vertices.
 class Surface {
  public:
-  explicit Surface(std::span<const Triangle> triangles) : triangles_(triangles), parents_(3 * triangles.size()) {
-    std::iota(parents_.begin(), parents_.end(), 0u);
-    for (std::uint32_t c = 0; c < parents_.size(); ++c) {
-      const std::uint32_t from = vertex(c), to = vertex(next(c));
+  explicit Surface(std::span<const Triangle> triangles) : triangles_(triangles), fan_corners_(3 * triangles.size()) {
+    for (std::uint32_t c = 0; c < fan_corners_.size(); ++c) {
+      const std::uint32_t from = vertex(c), to = vertex(next_corner(c));
       sides_.push_back({edge_key(from, to), c, from < to});
     }
     std::sort(sides_.begin(), sides_.end(),
@@ -59,12 +56,12 @@ class Surface {
     for_edges([&](std::span<const Side> uses) {
       ++edges_;
       if (uses.size() != 2 || uses[0].is_rising == uses[1].is_rising) return;
-      join(uses[0].corner, next(uses[1].corner));
-      join(next(uses[0].corner), uses[1].corner);
+      fan_corners_.join(uses[0].corner, next_corner(uses[1].corner));
+      fan_corners_.join(next_corner(uses[0].corner), uses[1].corner);
     });
-    for (std::uint32_t c = 0; c < parents_.size(); ++c) {
+    for (std::uint32_t c = 0; c < fan_corners_.size(); ++c) {
       int& fans = fans_[vertex(c)];
-      fans += root(c) == c ? 1 : 0;
+      fans += fan_corners_.root(c) == c ? 1 : 0;
     }
   }
 
@@ -84,15 +81,9 @@ class Surface {
   }
 
  private:
-  std::uint32_t root(std::uint32_t c) {
-    while (parents_[c] != c) c = parents_[c] = parents_[parents_[c]];
-    return c;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parents_[root(a)] = root(b); }
-
   std::span<const Triangle> triangles_;
   std::vector<Side> sides_;
-  std::vector<std::uint32_t> parents_;  // of corners that are of one fan
+  DisjointSets fan_corners_;  // joined: of one fan
   absl::flat_hash_map<std::uint32_t, int> fans_;
   std::int64_t edges_ = 0;
 };
@@ -170,7 +161,7 @@ Fit fit(std::span<const Triangle> before, std::span<const Triangle> after, const
     }
     border[uses[0].edge] = uses[0].is_rising;
     border_vertices.insert(old.vertex(uses[0].corner));
-    border_vertices.insert(old.vertex(next(uses[0].corner)));
+    border_vertices.insert(old.vertex(next_corner(uses[0].corner)));
   });
   Fit result;
   const auto note = [&](std::uint64_t edge) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/triangle_tree.h"
+#include "engine/triangle.h"
 
 namespace isofield::engine {
 

@@ -1,6 +1,5 @@
 #include "engine/point_index.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "engine/status_macros.h"
@@ -43,27 +42,16 @@ absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndex::make(gpu::Device& 
 }
 
 PointIndexCache::Entry& PointIndexCache::entry(const ResidentScene& scene) {
-  std::erase_if(entries_, [](const Entry& e) { return e.scene.expired(); });
-  const auto self = scene.weak_from_this();
-  const auto it = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
-    return !e.scene.owner_before(self) && !self.owner_before(e.scene);
-  });
-  if (it == entries_.end()) {
-    entries_.push_front({self});
-  } else {
-    std::rotate(entries_.begin(), it, it + 1);
-  }
-  return entries_.front();
+  Entry* const found = entries_.find(scene, [](const Entry&) { return true; });
+  return found ? *found : entries_.add({scene.weak_from_this()});
 }
 
 void PointIndexCache::trim() {
   std::size_t instructions = 0, kept = 0;
-  for (const Entry& e : entries_) {
+  entries_.trim([&](const Entry& e) {
     instructions += e.index ? e.index->grid().bricks().code.size() : 0;
-    if (kept == kMostEntries || instructions > kMostInstructions) break;
-    ++kept;
-  }
-  entries_.resize(kept);
+    return ++kept <= kMostEntries && instructions <= kMostInstructions;
+  });
 }
 
 absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndexCache::find(gpu::Device& device, const ResidentScene& scene,

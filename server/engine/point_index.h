@@ -4,14 +4,13 @@
 #include <absl/status/statusor.h>
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 #include "blobtree/point_grid.h"
-#include "engine/resident_scene.h"
+#include "engine/scene_entries.h"
 #include "engine/tape_windows.h"
 
 namespace isofield::engine {
@@ -57,7 +56,7 @@ class PointIndexCache {
   void trim();
 
   std::mutex mutex_;
-  std::deque<Entry> entries_;  // the last used first
+  SceneEntries<Entry> entries_;
 };
 
 }  // namespace isofield::engine

@@ -1,7 +1,5 @@
 #include "engine/surface_index.h"
 
-#include <algorithm>
-
 #include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
 
@@ -48,24 +46,16 @@ absl::StatusOr<std::shared_ptr<const SurfaceIndex>> SurfaceIndexCache::get(const
 
 std::shared_ptr<const SurfaceIndex> SurfaceIndexCache::find(const SceneLease& scene, const SurfaceRequest& request) {
   const std::lock_guard lock(mutex_);
-  std::erase_if(entries_, [](const Entry& e) { return e.scene.expired(); });
-  const auto it = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
-    return e.request == request && !e.scene.owner_before(scene) && !scene.owner_before(e.scene);
-  });
-  if (it == entries_.end()) return nullptr;
-  std::rotate(entries_.begin(), it, it + 1);
-  return entries_.front().index;
+  const Entry* const found = entries_.find(*scene, [&](const Entry& e) { return e.request == request; });
+  return found ? found->index : nullptr;
 }
 
 void SurfaceIndexCache::keep(Entry entry) {
   const std::lock_guard lock(mutex_);
-  entries_.push_front(std::move(entry));
+  entries_.add(std::move(entry));
   std::size_t bricks = 0, kept = 0;
-  while (kept < entries_.size() && kept < kMostEntries &&
-         (bricks += entries_[kept].index->tree.brick_count()) <= kMostBricks) {
-    ++kept;
-  }
-  entries_.resize(kept);
+  entries_.trim(
+      [&](const Entry& e) { return ++kept <= kMostEntries && (bricks += e.index->tree.brick_count()) <= kMostBricks; });
 }
 
 }  // namespace isofield::engine

@@ -3,14 +3,13 @@
 
 #include <absl/status/statusor.h>
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 
 #include "blobtree/brick_tree.h"
-#include "engine/resident_scene.h"
+#include "engine/scene_entries.h"
 
 namespace isofield::engine {
 
@@ -49,7 +48,7 @@ class SurfaceIndexCache {
   void keep(Entry entry);
 
   std::mutex mutex_;
-  std::deque<Entry> entries_;  // the last used first
+  SceneEntries<Entry> entries_;
 };
 
 }  // namespace isofield::engine

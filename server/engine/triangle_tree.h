@@ -8,21 +8,9 @@
 #include <vector>
 
 #include "blobtree/vec3.h"
+#include "engine/triangle.h"
 
 namespace isofield::engine {
-
-using Triangle = std::array<std::uint32_t, 3>;  // vertex numbers, counter-clockwise from outside
-
-inline blobtree::dvec3 position_of(std::span<const float> positions, std::uint32_t vertex) {
-  const float* p = &positions[3 * std::size_t{vertex}];
-  return {p[0], p[1], p[2]};
-}
-
-// As long as twice the triangle's area.
-inline blobtree::dvec3 normal_of(std::span<const float> positions, const Triangle& t) {
-  const blobtree::dvec3 a = position_of(positions, t[0]);
-  return cross(position_of(positions, t[1]) - a, position_of(positions, t[2]) - a);
-}
 
 // A tree of boxes over the triangles along a space-filling curve. Refers to what it is made from. One thread.
 class TriangleTree {

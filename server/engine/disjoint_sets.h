@@ -1,0 +1,31 @@
+// Which of some numbered things are joined.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace isofield::engine {
+
+// A forest whose paths are halved as they are walked (Tarjan and van Leeuwen 1984).
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(parents_.size()); }
+  // The lowest of those it is joined with.
+  std::uint32_t root(std::uint32_t i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a), b = root(b);
+    parents_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parents_;
+};
+
+}  // namespace isofield::engine
