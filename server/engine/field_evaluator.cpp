@@ -23,9 +23,9 @@ constexpr std::uint32_t kPointsPerGroup = 64;
 // 0.07 s of gradient blends on two cores.
 constexpr std::uint64_t kSubmissionWork = 1u << 21;
 
-// Of a written kernel: points of a submission, which comes and goes while the device is at another and stays in the
-// processor's caches, and of a workgroup (shaders/tape_points.comp).
-constexpr std::size_t kWrittenPoints = 1u << 15;
+// Of a written kernel: points of a submission, some 20 ms of the longest tapes on two cores, and of a workgroup
+// (shaders/tape_points.comp).
+constexpr std::size_t kWrittenPoints = 1u << 18;
 constexpr std::uint32_t kWrittenGroup = 64;
 
 // Of a batch that goes through an index: points of a piece at least, and a brick. What a piece reads and writes at
@@ -177,8 +177,8 @@ absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, co
   Session& session = piece.session;
   ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer job_buffer, session.upload(std::span(jobs)));
   ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points,
-                            session.upload(is_sorted ? std::span(sorted, 4 * (xyz.size() / 3)) : xyz));
-  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.scratch(out.size_bytes()));
+                            session.input(is_sorted ? std::span(sorted, 4 * (xyz.size() / 3)) : xyz));
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(out));
   const KernelKind kind = KernelKind::of(scene.tape());
   ISOFIELD_RETURN_IF_ERROR(submit_in_pieces(
       session, windows, cancelled, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * points_per_job; },
@@ -208,8 +208,8 @@ absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const
     ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
     Session& session = piece.session;
     const std::span<float> part_out = out.subspan(first * components(quantity), part * components(quantity));
-    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.upload(xyz.subspan(3 * first, 3 * part)));
-    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.scratch(part_out.size_bytes()));
+    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.input(xyz.subspan(3 * first, 3 * part)));
+    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(part_out));
     const auto last = static_cast<std::uint32_t>(part - 1);
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel, scene.bindings(points, {{6, &points}, {7, &results}}),
                                                          last, last / kWrittenGroup + 1));

@@ -1,8 +1,21 @@
 #include "engine/session.h"
 
+#include <optional>
+
 namespace isofield::engine {
 
 using gpu::Buffer;
+
+namespace {
+
+// Arrays of fewer bytes are copied in less time than a buffer over them takes to make.
+constexpr std::size_t kLeastBorrowed = 1u << 16;
+
+std::optional<Buffer> borrow(gpu::Device& device, std::span<std::byte> bytes) {
+  return bytes.size() < kLeastBorrowed ? std::nullopt : Buffer::borrow(device, bytes);
+}
+
+}  // namespace
 
 absl::StatusOr<Session> Session::begin(gpu::Device& device, const gpu::Urgency& urgency, gpu::Turns::Turn turn) {
   absl::StatusOr<gpu::Commands> commands = gpu::Commands::begin(device);
@@ -12,6 +25,20 @@ absl::StatusOr<Session> Session::begin(gpu::Device& device, const gpu::Urgency& 
 
 absl::StatusOr<Buffer> Session::scratch(std::size_t bytes) {
   return Buffer::create(*device_, bytes, Buffer::Use::kDevice);
+}
+
+absl::StatusOr<Buffer> Session::input(std::span<const float> data) {
+  // Kernels that are given it read it alone.
+  float* const bytes = const_cast<float*>(data.data());
+  if (auto borrowed = borrow(*device_, std::as_writable_bytes(std::span(bytes, data.size())))) {
+    return *std::move(borrowed);
+  }
+  return upload(data);
+}
+
+absl::StatusOr<Buffer> Session::output(std::span<float> out) {
+  if (auto borrowed = borrow(*device_, std::as_writable_bytes(out))) return *std::move(borrowed);
+  return scratch(out.size_bytes());
 }
 
 absl::StatusOr<Buffer> Session::upload_bytes(std::span<const std::byte> data) {
@@ -31,7 +58,7 @@ absl::StatusOr<Buffer> Session::upload_bytes(std::span<const std::byte> data) {
 }
 
 absl::Status Session::download_bytes(const Buffer& buffer, std::span<std::byte> out) {
-  if (out.empty()) return absl::OkStatus();
+  if (out.empty() || buffer.data() == out.data()) return absl::OkStatus();
   if (buffer.data()) {
     downloads_.push_back({buffer.data(), out});
     return absl::OkStatus();

@@ -31,9 +31,15 @@ class Session {
   absl::StatusOr<gpu::Buffer> upload(std::span<T> data) {
     return upload_bytes(std::as_bytes(data));
   }
+  // The same for data that stays while the buffer is used: a large array is not copied where the device can read the
+  // host's.
+  absl::StatusOr<gpu::Buffer> input(std::span<const float> data);
+  // A buffer of undefined content to download() to `out`: where the device can write there, `out` itself.
+  absl::StatusOr<gpu::Buffer> output(std::span<float> out);
   // A buffer of undefined content.
   absl::StatusOr<gpu::Buffer> scratch(std::size_t bytes);
   // Fills `out` from the start of the buffer when run() returns; record it after the dispatches that write the buffer.
+  // No work where output() gave it for `out`.
   template <class T>
   absl::Status download(const gpu::Buffer& buffer, std::span<T> out) {
     return download_bytes(buffer, std::as_writable_bytes(out));

@@ -10,6 +10,10 @@ namespace {
 using Flags = vk::MemoryPropertyFlags;
 using Flag = vk::MemoryPropertyFlagBits;
 
+constexpr vk::BufferUsageFlags kUsage = vk::BufferUsageFlagBits::eStorageBuffer |
+                                        vk::BufferUsageFlagBits::eUniformBuffer |
+                                        vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst;
+
 // Memory kinds in the order of preference.
 std::vector<Flags> wishes(Buffer::Use use) {
   switch (use) {
@@ -44,11 +48,7 @@ bool worth_mapping(const Device::Impl& device, Flags flags, Buffer::Use use) {
 // Memory and all of a buffer of `bytes`.
 absl::StatusOr<std::unique_ptr<Buffer::Impl>> make(Device::Impl& d, std::size_t bytes, Buffer::Use use) {
   auto impl = std::make_unique<Buffer::Impl>(d);
-  impl->buffer.emplace(
-      *d.device,
-      vk::BufferCreateInfo({}, bytes,
-                           vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformBuffer |
-                               vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst));
+  impl->buffer.emplace(*d.device, vk::BufferCreateInfo({}, bytes, kUsage));
   const vk::MemoryRequirements needs = impl->buffer->getMemoryRequirements();
   const auto type = memory_type(d.memory, needs.memoryTypeBits, use);
   if (!type) return absl::InternalError("Vulkan offers no memory for a storage buffer");
@@ -96,6 +96,40 @@ absl::StatusOr<Buffer> Buffer::create(Device& device, std::size_t bytes, Use use
     return Buffer(std::move(impl));
   } catch (const vk::SystemError& error) {
     return to_status(error, "allocating a buffer");
+  }
+}
+
+std::optional<Buffer> Buffer::borrow(Device& device, std::span<std::byte> bytes) {
+  Device::Impl& d = device.impl();
+  const auto address = reinterpret_cast<std::uintptr_t>(bytes.data());
+  if (d.borrow_alignment == 0 || d.always_stage || bytes.empty() || address % kBorrowedAlignment != 0) {
+    return std::nullopt;
+  }
+  // The pages that hold them; the device uses nothing else of these.
+  const std::uintptr_t first = address / d.borrow_alignment * d.borrow_alignment;
+  const std::uintptr_t end =
+      (address + bytes.size() + d.borrow_alignment - 1) / d.borrow_alignment * d.borrow_alignment;
+  if (end - first > d.description.max_buffer_bytes) return std::nullopt;
+  constexpr auto kHost = vk::ExternalMemoryHandleTypeFlagBits::eHostAllocationEXT;
+  void* const pages = reinterpret_cast<void*>(first);
+  try {
+    auto impl = std::make_unique<Impl>(d);
+    const vk::ExternalMemoryBufferCreateInfo external(kHost);
+    impl->buffer.emplace(*d.device, vk::BufferCreateInfo({}, end - first, kUsage, {}, {}, {}, &external));
+    const std::uint32_t allowed = impl->buffer->getMemoryRequirements().memoryTypeBits &
+                                  d.device->getMemoryHostPointerPropertiesEXT(kHost, pages).memoryTypeBits;
+    if (allowed == 0) return std::nullopt;
+    const vk::ImportMemoryHostPointerInfoEXT import(kHost, pages);
+    impl->memory.emplace(
+        *d.device, vk::MemoryAllocateInfo(end - first, static_cast<std::uint32_t>(std::countr_zero(allowed)), &import));
+    impl->buffer->bindMemory(**impl->memory, 0);
+    impl->size = bytes.size();
+    impl->offset = address - first;
+    impl->mapped = bytes.data();
+    d.allocated_bytes += impl->size;
+    return Buffer(std::move(impl));
+  } catch (const vk::SystemError&) {
+    return std::nullopt;
   }
 }
 

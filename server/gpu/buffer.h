@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "gpu/device.h"
 
@@ -22,6 +24,9 @@ class Buffer {
   // `bytes` is rounded up to a multiple of 16 and to at least 16. RESOURCE_EXHAUSTED: out of memory, or more than one
   // binding holds.
   static absl::StatusOr<Buffer> create(Device& device, std::size_t bytes, Use use);
+  // A buffer that is the host's own bytes, which must outlive the device's use of it; nothing where the device cannot
+  // or had better not, or where the address is no multiple of 16.
+  static std::optional<Buffer> borrow(Device& device, std::span<std::byte> bytes);
   Buffer();
   Buffer(Buffer&&) noexcept;
   Buffer& operator=(Buffer&&) noexcept;

@@ -14,6 +14,7 @@ struct Buffer::Impl {
   Spares<Buffer::Impl>* spares = nullptr;  // where it goes after use; null: nowhere
   std::optional<vk::raii::Buffer> buffer;
   std::optional<vk::raii::DeviceMemory> memory;
+  std::size_t offset = 0;  // of its bytes in `buffer`
   std::byte* mapped = nullptr;
 };
 

@@ -80,8 +80,9 @@ absl::Status Commands::dispatch(const Pipeline& pipeline, const Bindings& bindin
     infos.reserve(kBindings + kUniformBindings);
     const auto bind = [&](std::uint32_t binding, const Buffer& buffer, std::size_t offset) {
       const bool is_uniform = binding >= kBindings;
-      infos.emplace_back(**buffer.impl().buffer, offset,
-                         is_uniform ? std::min<vk::DeviceSize>(buffer.size() - offset, kUniformBytes) : VK_WHOLE_SIZE);
+      const vk::DeviceSize left = buffer.size() - offset;
+      infos.emplace_back(**buffer.impl().buffer, buffer.impl().offset + offset,
+                         is_uniform ? std::min<vk::DeviceSize>(left, kUniformBytes) : left);
       writes.emplace_back(set, binding, 0, 1,
                           is_uniform ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer, nullptr,
                           &infos.back());
@@ -120,11 +121,12 @@ void Commands::barrier() {
 
 void Commands::copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset,
                     std::size_t bytes) {
-  impl_->buffer.copyBuffer(**from.impl().buffer, **to.impl().buffer, vk::BufferCopy(from_offset, to_offset, bytes));
+  impl_->buffer.copyBuffer(**from.impl().buffer, **to.impl().buffer,
+                           vk::BufferCopy(from.impl().offset + from_offset, to.impl().offset + to_offset, bytes));
 }
 
 void Commands::fill_zero(const Buffer& buffer) {
-  impl_->buffer.fillBuffer(**buffer.impl().buffer, 0, VK_WHOLE_SIZE, 0);
+  impl_->buffer.fillBuffer(**buffer.impl().buffer, buffer.impl().offset, buffer.size(), 0);
 }
 
 absl::Status Commands::submit() {

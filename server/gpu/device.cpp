@@ -92,6 +92,20 @@ std::optional<std::uint32_t> compute_family(const vk::raii::PhysicalDevice& devi
   return std::nullopt;
 }
 
+// Device::Impl::borrow_alignment. Only of devices that are the host's processor: others read their own memory faster.
+std::size_t borrow_alignment(const vk::raii::PhysicalDevice& device) {
+  const vk::PhysicalDeviceProperties properties = device.getProperties();
+  const auto extensions = device.enumerateDeviceExtensionProperties();
+  const bool borrows = properties.deviceType == vk::PhysicalDeviceType::eCpu &&
+                       properties.limits.minStorageBufferOffsetAlignment <= kBorrowedAlignment &&
+                       std::any_of(extensions.begin(), extensions.end(), [](const vk::ExtensionProperties& e) {
+                         return std::string_view(e.extensionName) == VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME;
+                       });
+  if (!borrows) return 0;
+  using Limits = vk::PhysicalDeviceExternalMemoryHostPropertiesEXT;
+  return device.getProperties2<vk::PhysicalDeviceProperties2, Limits>().get<Limits>().minImportedHostPointerAlignment;
+}
+
 DeviceCandidate candidate(const vk::raii::PhysicalDevice& device) {
   const vk::PhysicalDeviceProperties properties = device.getProperties();
   DeviceCandidate c;
@@ -134,7 +148,10 @@ void create_device(Device::Impl& impl) {
   impl.queue_family = *compute_family(*impl.physical);
   const float priority = 1;
   const vk::DeviceQueueCreateInfo queue({}, impl.queue_family, 1, &priority);
-  impl.device.emplace(*impl.physical, vk::DeviceCreateInfo({}, queue));
+  impl.borrow_alignment = borrow_alignment(*impl.physical);
+  std::vector<const char*> extensions;
+  if (impl.borrow_alignment > 0) extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
+  impl.device.emplace(*impl.physical, vk::DeviceCreateInfo({}, queue, {}, extensions));
   impl.queue.emplace(*impl.device, impl.queue_family, 0);
   impl.memory = impl.physical->getMemoryProperties();
 

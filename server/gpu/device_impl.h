@@ -23,6 +23,9 @@ inline constexpr std::uint32_t kPushBytes = 128;
 // Small buffers are made in sizes of 2^n bytes and used again: from 2^kLeastSpareBits to 2^kMostSpareBits.
 inline constexpr std::uint32_t kLeastSpareBits = 8, kMostSpareBits = 18;
 
+// Of addresses of borrowed bytes: kernels read and write vec4s there.
+inline constexpr std::size_t kBorrowedAlignment = 16;
+
 struct Device::Impl {
   Impl();
   ~Impl();
@@ -42,6 +45,8 @@ struct Device::Impl {
 
   DeviceDescription description;
   bool always_stage = false;
+  // What addresses and sizes of host memory that a buffer lies over are multiples of; 0: none does.
+  std::size_t borrow_alignment = 0;
   std::function<void(const std::string&)> on_validation_message;
   std::atomic<std::uint64_t> validation_messages{0};
   std::atomic<std::uint64_t> allocated_bytes{0};

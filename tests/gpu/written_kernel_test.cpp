@@ -177,11 +177,12 @@ TEST(WrittenKernels, TakeLargeBatches) {
   WrittenKernels written(device(), {});
   const engine::SceneLease scene = resident(two_spheres(0.5));
   ASSERT_TRUE(make_hot(written, *scene));
-  const std::vector<float> xyz = random_points(8, 100'003);
+  constexpr int kCount = 600'003;  // three submissions
+  const std::vector<float> xyz = random_points(8, kCount);
   expect_near(evaluate(*scene, xyz, Quantity::kValueAndGradient, &written),
               evaluate(*scene, xyz, Quantity::kValueAndGradient, nullptr), 4, "large");
   engine::FieldEvaluator fields(device(), kernels(), &written);
-  std::vector<float> out(4 * 100'003);
+  std::vector<float> out(4 * std::size_t{kCount});
   int asked = 0;
   const absl::Status cut = fields.evaluate(*scene, xyz, Quantity::kValueAndGradient, out, [&] { return ++asked == 3; });
   EXPECT_EQ(cut.code(), absl::StatusCode::kCancelled);
@@ -195,6 +196,7 @@ TEST(WrittenKernels, ReadAndWriteWhereverTheArraysLie) {
   const std::vector<float> xyz = random_points(5, kCount);
   for (WrittenKernels* const kernels_or_none : {&written, static_cast<WrittenKernels*>(nullptr)}) {
     const std::vector<float> expected = evaluate(*scene, xyz, Quantity::kValueAndGradient, kernels_or_none);
+    EXPECT_EQ(std::count(expected.begin(), expected.end(), -1), 0) << "not written";
     engine::FieldEvaluator fields(device(), kernels(), kernels_or_none);
     // Of floats into arrays that lie at multiples of 16 bytes.
     for (const auto& [in, out] : {std::pair{0, 0}, {4, 4}, {1, 4}, {4, 3}, {2, 1}}) {
