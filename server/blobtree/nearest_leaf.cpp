@@ -34,7 +34,7 @@ std::vector<std::uint32_t> nearest_leaves(const Tape& tape, std::span<const floa
     if (g.tape_count == 0) continue;
     const std::span<const Instruction> code(bins.code.data() + g.tape_begin, g.tape_count);
     for (std::uint32_t n = g.first; n < g.first + g.count; ++n) {
-      const std::size_t place = bins.order.empty() ? n : bins.order[n];
+      const std::size_t place = bins.points ? bins.points[n].place : n;
       leaves[place] = nearest(tape, code, {xyz[3 * place], xyz[3 * place + 1], xyz[3 * place + 2]});
     }
   }

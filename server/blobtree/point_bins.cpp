@@ -9,7 +9,7 @@ namespace {
 
 // Instructions a tape may have for its points to be evaluated without more sorting, and points that a group is not
 // split below: a split costs about as much as evaluating some tens of point-instructions a point.
-constexpr std::size_t kShortTape = 6;
+constexpr std::size_t kShortTape = kUnsortedInstructions / 2;
 constexpr std::uint32_t kSmallGroup = 48;
 
 class Binner {
@@ -19,14 +19,14 @@ class Binner {
   PointBins run() {
     const auto count = static_cast<std::uint32_t>(xyz_.size() / 3);
     if (count == 0) return std::move(bins_);
-    if (tape_.code.size() <= 2 * kShortTape) {
+    if (tape_.code.size() <= kUnsortedInstructions) {
       bins_.code = tape_.code;
       bins_.groups.push_back({0, count, 0, static_cast<std::uint32_t>(tape_.code.size())});
       return std::move(bins_);
     }
-    bins_.order.resize(count);
-    for (std::uint32_t i = 0; i < count; ++i) bins_.order[i] = i;
-    scratch_.resize(count);
+    bins_.points = std::make_unique_for_overwrite<PlacedPoint[]>(count);
+    for (std::uint32_t i = 0; i < count; ++i) bins_.points[i] = {xyz_[3 * i], xyz_[3 * i + 1], xyz_[3 * i + 2], i};
+    scratch_ = std::make_unique_for_overwrite<PlacedPoint[]>(count);
     arena_ = tape_.code;
     levels_.push_back({0, arena_.size()});
     stack_.push_back({0, count, 0});
@@ -47,15 +47,16 @@ class Binner {
     std::size_t begin, count;  // in arena_
   };
 
-  const float* point(std::uint32_t i) const { return &xyz_[3 * std::size_t{bins_.order[i]}]; }
+  std::span<PlacedPoint> points(const Range& range) const { return {&bins_.points[range.first], range.count}; }
 
   Box box_of(const Range& range) const {
     float lo[3], hi[3];
     std::fill(lo, lo + 3, std::numeric_limits<float>::infinity());
     std::fill(hi, hi + 3, -std::numeric_limits<float>::infinity());
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-      const float* p = point(i);
-      for (int a = 0; a < 3; ++a) lo[a] = std::min(lo[a], p[a]), hi[a] = std::max(hi[a], p[a]);
+    for (const PlacedPoint& p : points(range)) {
+      lo[0] = std::min(lo[0], p.x), hi[0] = std::max(hi[0], p.x);
+      lo[1] = std::min(lo[1], p.y), hi[1] = std::max(hi[1], p.y);
+      lo[2] = std::min(lo[2], p.z), hi[2] = std::max(hi[2], p.z);
     }
     return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
   }
@@ -81,18 +82,16 @@ class Binner {
   // Sorts the range into the eight octants of its box.
   void split(const Range& range, const Box& box) {
     const dvec3 c = (box.min + box.max) * 0.5;
-    const auto octant = [&](const float* p) {
-      return (p[0] > c.x ? 1 : 0) | (p[1] > c.y ? 2 : 0) | (p[2] > c.z ? 4 : 0);
+    const auto octant = [&](const PlacedPoint& p) {
+      return (p.x > c.x ? 1 : 0) | (p.y > c.y ? 2 : 0) | (p.z > c.z ? 4 : 0);
     };
     std::array<std::uint32_t, 9> starts{};
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) ++starts[octant(point(i)) + 1];
+    for (const PlacedPoint& p : points(range)) ++starts[octant(p) + 1];
     for (int o = 0; o < 8; ++o) starts[o + 1] += starts[o];
     std::array<std::uint32_t, 8> next;
     std::copy_n(starts.begin(), 8, next.begin());
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-      scratch_[next[octant(point(i))]++] = bins_.order[i];
-    }
-    std::copy_n(scratch_.begin(), range.count, bins_.order.begin() + range.first);
+    for (const PlacedPoint& p : points(range)) scratch_[next[octant(p)]++] = p;
+    std::copy_n(scratch_.get(), range.count, points(range).begin());
     for (int o = 7; o >= 0; --o) {
       const std::uint32_t count = starts[o + 1] - starts[o];
       if (count > 0) stack_.push_back({range.first + starts[o], count, levels_.size() - 1});
@@ -103,7 +102,7 @@ class Binner {
   Pruner pruner_;
   const Tape& tape_;
   PointBins bins_;
-  std::vector<std::uint32_t> scratch_;
+  std::unique_ptr<PlacedPoint[]> scratch_;
   std::vector<Instruction> arena_;
   std::vector<Level> levels_;
   std::vector<Range> stack_;

@@ -1,7 +1,9 @@
 // Sorts a batch of points into groups that lie close together, each with a pruned tape.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,18 +19,20 @@ struct PlacedPoint {
 };
 
 struct PointGroup {
-  std::uint32_t first, count;  // in PointBins::order
+  std::uint32_t first, count;  // in PointBins::points
   std::uint32_t tape_begin, tape_count;  // 0 instructions: the field is 0
 };
 
 struct PointBins {
-  // Places in the batch; empty: the batch as it is, in one group.
-  std::vector<std::uint32_t> order;
+  std::unique_ptr<PlacedPoint[]> points;  // null: the batch as it is, in one group
   std::vector<PointGroup> groups;  // that hold every point once
   std::vector<Instruction> code;
 };
 
-// `xyz` holds 3 finite numbers a point. Short tapes are not worth sorting for and go through in one group.
+// Tapes of so few instructions are not worth sorting points for.
+inline constexpr std::size_t kUnsortedInstructions = 12;
+
+// `xyz` holds 3 finite numbers a point. All of them are one group where the tape is not worth sorting for.
 PointBins bin_points(const Tape& tape, std::span<const float> xyz);
 
 }  // namespace isofield::blobtree

@@ -15,7 +15,7 @@ constexpr double kRoom = 1e-3;
 
 }  // namespace
 
-absl::StatusOr<PointGrid> PointGrid::make(const Tape& tape, const std::function<bool()>& cancelled) {
+absl::StatusOr<PointGrid> PointGrid::make(const Tape& tape, BrickList& bricks, const std::function<bool()>& cancelled) {
   const Box& box = tape.support;
   const double longest =
       box.empty() ? 0 : std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
@@ -42,11 +42,11 @@ absl::StatusOr<PointGrid> PointGrid::make(const Tape& tape, const std::function<
   set_axis(2, box.min.z, box.max.z, request.lattice.origin.z);
   absl::StatusOr<BrickList> list = cull(tape, request);
   if (!list.ok()) return list.status();
-  grid.list_ = *std::move(list);
-  const auto none = static_cast<std::uint32_t>(grid.list_.bricks.size());
-  grid.places_.assign(std::size_t{grid.counts_[0]} * grid.counts_[1] * grid.counts_[2], none);
-  for (std::uint32_t b = 0; b < none; ++b) {
-    const Brick& at = grid.list_.bricks[b];
+  bricks = *std::move(list);
+  grid.bricks_ = static_cast<std::uint32_t>(bricks.bricks.size());
+  grid.places_.assign(std::size_t{grid.counts_[0]} * grid.counts_[1] * grid.counts_[2], grid.bricks_);
+  for (std::uint32_t b = 0; b < grid.bricks_; ++b) {
+    const Brick& at = bricks.bricks[b];
     grid.places_[at.x + std::size_t{grid.counts_[0]} * (at.y + std::size_t{grid.counts_[1]} * at.z)] = b;
   }
   return grid;
@@ -60,12 +60,12 @@ std::uint32_t PointGrid::brick_at(const float* p) const {
     is_within = is_within && t >= 0 && t < static_cast<float>(counts_[a]);
     at[a] = is_within ? static_cast<std::uint32_t>(t) : 0;
   }
-  if (!is_within) return static_cast<std::uint32_t>(list_.bricks.size());
+  if (!is_within) return bricks_;
   return places_[at[0] + std::size_t{counts_[0]} * (at[1] + std::size_t{counts_[1]} * at[2])];
 }
 
 PointGrid::Sorted PointGrid::sort(std::span<const float> xyz) const {
-  const std::size_t count = xyz.size() / 3, bins = list_.bricks.size() + 1;
+  const std::size_t count = xyz.size() / 3, bins = std::size_t{bricks_} + 1;
   const auto bin_of = std::make_unique_for_overwrite<std::uint32_t[]>(count);
   Sorted sorted;
   // One place on: what is counted there becomes where the bin's next point goes, and at last where the next bin begins.

@@ -22,11 +22,9 @@ class PointGrid {
  public:
   // FAILED_PRECONDITION: the support is empty or has no end. RESOURCE_EXHAUSTED: the bricks' tapes take more than
   // kMostInstructions, since most primitives overlap. CANCELLED.
-  static absl::StatusOr<PointGrid> make(const Tape& tape, const std::function<bool()>& cancelled);
+  // `bricks` becomes those where the field may differ from 0.
+  static absl::StatusOr<PointGrid> make(const Tape& tape, BrickList& bricks, const std::function<bool()>& cancelled);
   static constexpr std::size_t kMostInstructions = 1u << 21;
-
-  // Bricks where the field may differ from 0.
-  const BrickList& bricks() const { return list_; }
 
   struct Sorted {
     std::unique_ptr<PlacedPoint[]> points;  // by brick
@@ -41,8 +39,8 @@ class PointGrid {
   std::array<float, 3> origin_{};
   float per_step_ = 0;
   std::array<std::uint32_t, 3> counts_{};
-  std::vector<std::uint32_t> places_;  // of the grid's bricks in list_, x fastest; list_'s size: none
-  BrickList list_;
+  std::vector<std::uint32_t> places_;  // of the grid's bricks in the list of them, x fastest; its size: none
+  std::uint32_t bricks_ = 0;           // in the list
 };
 
 }  // namespace isofield::blobtree

@@ -13,8 +13,8 @@ namespace isofield::blobtree {
 inline constexpr std::uint32_t kWindowSize = 4096;
 inline constexpr std::uint32_t kWindowAlignment = 16;
 
-// Where the parts of a window begin, in vec4s from the start of WindowPacker::data(). Records that fit whole are not
-// copied: `leaves` and `operations` are kWhole then, and places in them are those of the whole.
+// Where the parts of a window begin, in vec4s from the start of what WindowPacker::finish() returns. Records that fit
+// whole are not copied: `leaves` and `operations` are kWhole then, and places in them are those of the whole.
 struct Window {
   static constexpr std::uint32_t kWhole = ~0u;
   std::uint32_t code, leaves = kWhole, operations = kWhole;
@@ -31,10 +31,12 @@ class WindowPacker {
   // changed, where a window would not hold them.
   std::uint32_t add(std::uint32_t& begin, std::uint32_t count);
 
-  // After the last add().
-  void finish() { close(); }
+  // After the last add(): what all windows hold. It keeps none of it.
+  std::vector<Float4> finish() {
+    close();
+    return std::move(data_);
+  }
   const std::vector<Window>& windows() const { return windows_; }
-  const std::vector<Float4>& data() const { return data_; }
 
  private:
   // Records of leaves, or of operations.

@@ -23,9 +23,9 @@ constexpr std::uint32_t kPointsPerGroup = 64;
 // 0.07 s of gradient blends on two cores.
 constexpr std::uint64_t kSubmissionWork = 1u << 21;
 
-// Of a written kernel: points of a submission, some 20 ms of the longest tapes on two cores, and of a workgroup
-// (shaders/tape_points.comp).
-constexpr std::size_t kWrittenPoints = 1u << 18;
+// Of a written kernel: points of a submission times WrittenKernels::work(), some 8 ms on two cores, where one after
+// another takes 0.3 ms more than both at once; and points of a workgroup (shaders/tape_points.comp).
+constexpr std::size_t kWrittenWork = 1u << 23;
 constexpr std::uint32_t kWrittenGroup = 64;
 
 // Of a batch that goes through an index: points of a piece at least, and a brick. What a piece reads and writes at
@@ -90,13 +90,7 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
     if (g.tape_count > 0) groups.back().window = tapes.add(groups.back().tape_begin, g.tape_count);
   }
   ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
-  if (!bins.order.empty()) {
-    piece.sorted = std::make_unique_for_overwrite<blobtree::PlacedPoint[]>(count);
-    for (std::size_t n = 0; n < count; ++n) {
-      const float* p = &xyz[3 * std::size_t{bins.order[n]}];
-      piece.sorted[n] = {p[0], p[1], p[2], bins.order[n]};
-    }
-  }
+  piece.sorted = std::move(bins.points);
   ISOFIELD_RETURN_IF_ERROR(tapes.upload(piece.session));
   ISOFIELD_RETURN_IF_ERROR(record(piece, scene, tapes, groups, xyz, quantity, out, cancelled));
   return piece.session.run();
@@ -107,7 +101,7 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
                                               const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3, bricks = index.tapes().size();
   const std::size_t most = std::max(kIndexedPoints, kIndexedPointsPerBrick * bricks);
-  const std::uint32_t points_per_job = device_.description().subgroup_size;
+  const std::uint32_t points_per_job = this->points_per_job();
   std::optional<Piece> running;
   for (std::size_t first = 0; first < count; first += most) {
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
@@ -124,22 +118,30 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
       work += std::uint64_t{(points + points_per_job - 1) / points_per_job * points_per_job} * tape.count;
     }
     // What is too much for one submission is submitted while it is recorded, and takes the turn that `running` holds.
-    if (running && work >= kSubmissionWork) ISOFIELD_RETURN_IF_ERROR(finish(*std::exchange(running, {})));
+    if (work >= kSubmissionWork) ISOFIELD_RETURN_IF_ERROR(finish(running));
     ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
     piece.sorted = std::move(sorted.points);
     ISOFIELD_RETURN_IF_ERROR(record(piece, scene, index.windows(), groups, part_xyz, quantity,
                                     out.subspan(first * components(quantity), part * components(quantity)), cancelled));
-    if (running) ISOFIELD_RETURN_IF_ERROR(running->session.wait());
-    ISOFIELD_RETURN_IF_ERROR(piece.session.submit());
-    if (running) running->session.collect();
-    running = std::move(piece);
+    ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(piece)));
   }
-  return finish(*std::move(running));
+  return finish(running);
 }
 
-absl::Status FieldEvaluator::finish(Piece piece) {
-  ISOFIELD_RETURN_IF_ERROR(piece.session.wait());
-  piece.session.collect();
+absl::Status FieldEvaluator::submit_after(std::optional<Piece>& running, Piece next) {
+  if (running) ISOFIELD_RETURN_IF_ERROR(running->session.wait());
+  ISOFIELD_RETURN_IF_ERROR(next.session.submit());
+  if (running) running->session.collect();
+  running = std::move(next);
+  return absl::OkStatus();
+}
+
+absl::Status FieldEvaluator::finish(std::optional<Piece>& running) {
+  if (running) {
+    ISOFIELD_RETURN_IF_ERROR(running->session.wait());
+    running->session.collect();
+  }
+  running.reset();
   return absl::OkStatus();
 }
 
@@ -152,7 +154,7 @@ absl::StatusOr<FieldEvaluator::Piece> FieldEvaluator::begin_piece(Submission& su
 absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes,
                                     std::span<const Group> groups, std::span<const float> xyz, Quantity quantity,
                                     std::span<float> out, const Cancelled& cancelled) {
-  const std::uint32_t points_per_job = device_.description().subgroup_size;
+  const std::uint32_t points_per_job = this->points_per_job();
   const std::uint32_t jobs_per_group = kPointsPerGroup / points_per_job;
   std::vector<PointJob> jobs;
   std::vector<std::uint32_t> windows;
@@ -201,10 +203,11 @@ absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const
                                               std::span<const float> xyz, Quantity quantity, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3;
+  const std::size_t most = std::max<std::size_t>(kWrittenWork / WrittenKernels::work(scene.tape()), kWrittenGroup);
   std::optional<Piece> running;
-  for (std::size_t first = 0; first < count; first += kWrittenPoints) {
+  for (std::size_t first = 0; first < count; first += most) {
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
-    const std::size_t part = std::min(kWrittenPoints, count - first);
+    const std::size_t part = std::min(most, count - first);
     ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
     Session& session = piece.session;
     const std::span<float> part_out = out.subspan(first * components(quantity), part * components(quantity));
@@ -214,14 +217,10 @@ absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel, scene.bindings(points, {{6, &points}, {7, &results}}),
                                                          last, last / kWrittenGroup + 1));
     ISOFIELD_RETURN_IF_ERROR(session.download(results, part_out));
-    if (running) ISOFIELD_RETURN_IF_ERROR(running->session.wait());
-    ISOFIELD_RETURN_IF_ERROR(session.submit());
-    if (running) running->session.collect();
-    piece.buffers.push_back(std::move(points));
-    piece.buffers.push_back(std::move(results));
-    running = std::move(piece);
+    for (gpu::Buffer* b : {&points, &results}) piece.buffers.push_back(std::move(*b));
+    ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(piece)));
   }
-  return finish(*std::move(running));
+  return finish(running);
 }
 
 absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,

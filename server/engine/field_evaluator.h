@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -70,7 +71,10 @@ class FieldEvaluator {
     Session session;  // last: it waits for the device, which uses the others
   };
   absl::StatusOr<Piece> begin_piece(Submission& submission);
-  static absl::Status finish(Piece submitted);
+  // Submits when `running`, if any, is done, and takes its place.
+  static absl::Status submit_after(std::optional<Piece>& running, Piece next);
+  static absl::Status finish(std::optional<Piece>& running);
+  std::uint32_t points_per_job() const { return device_.description().subgroup_size; }  // of shaders/points.comp
   absl::Status record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes, std::span<const Group> groups,
                       std::span<const float> xyz, Quantity quantity, std::span<float> out, const Cancelled& cancelled);
 

@@ -13,18 +13,17 @@ constexpr std::uint64_t kHotPoints = 1u << 19;
 constexpr std::uint64_t kLargeBatch = 1u << 14;
 // Bricks a point of a batch beyond which passing over them takes longer than sorting the batch by itself.
 constexpr std::uint64_t kBricksPerPoint = 4;
-// Tapes of fewer instructions are run whole (blobtree/point_bins.cpp).
-constexpr std::size_t kShortTape = 12;
 
 constexpr std::size_t kMostEntries = 64;
 constexpr std::size_t kMostInstructions = blobtree::PointGrid::kMostInstructions;  // of all that are kept
 
 }  // namespace
 
-PointIndex::PointIndex(gpu::Device& device, const ResidentScene& scene, blobtree::PointGrid grid)
-    : grid_(std::move(grid)), windows_(device, scene, grid_.bricks().code) {
-  tapes_.reserve(grid_.bricks().bricks.size());
-  for (const blobtree::Brick& b : grid_.bricks().bricks) {
+PointIndex::PointIndex(gpu::Device& device, const ResidentScene& scene, blobtree::PointGrid grid,
+                       blobtree::BrickList bricks)
+    : grid_(std::move(grid)), instructions_(bricks.code.size()), windows_(device, scene, std::move(bricks.code)) {
+  tapes_.reserve(bricks.bricks.size());
+  for (const blobtree::Brick& b : bricks.bricks) {
     Tape tape{b.tape_begin, b.tape_count, 0};
     tape.window = windows_.add(tape.begin, tape.count);
     tapes_.push_back(tape);
@@ -33,8 +32,9 @@ PointIndex::PointIndex(gpu::Device& device, const ResidentScene& scene, blobtree
 
 absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndex::make(gpu::Device& device, const ResidentScene& scene,
                                                                    const std::function<bool()>& cancelled) {
-  ISOFIELD_ASSIGN_OR_RETURN(blobtree::PointGrid grid, blobtree::PointGrid::make(scene.tape(), cancelled));
-  const std::shared_ptr<PointIndex> index(new PointIndex(device, scene, std::move(grid)));
+  blobtree::BrickList bricks;
+  ISOFIELD_ASSIGN_OR_RETURN(blobtree::PointGrid grid, blobtree::PointGrid::make(scene.tape(), bricks, cancelled));
+  const std::shared_ptr<PointIndex> index(new PointIndex(device, scene, std::move(grid), std::move(bricks)));
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device));
   ISOFIELD_RETURN_IF_ERROR(index->windows_.upload(session));
   ISOFIELD_RETURN_IF_ERROR(session.run());
@@ -49,7 +49,7 @@ PointIndexCache::Entry& PointIndexCache::entry(const ResidentScene& scene) {
 void PointIndexCache::trim() {
   std::size_t instructions = 0, kept = 0;
   entries_.trim([&](const Entry& e) {
-    instructions += e.index ? e.index->grid().bricks().code.size() : 0;
+    instructions += e.index ? e.index->instructions() : 0;
     return ++kept <= kMostEntries && instructions <= kMostInstructions;
   });
 }
@@ -57,7 +57,7 @@ void PointIndexCache::trim() {
 absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndexCache::find(gpu::Device& device, const ResidentScene& scene,
                                                                         std::uint64_t points,
                                                                         const std::function<bool()>& cancelled) {
-  if (scene.tape().code.size() <= kShortTape) return nullptr;
+  if (scene.tape().code.size() <= blobtree::kUnsortedInstructions) return nullptr;
   const auto fits = [&](const PointIndex& index) { return index.tapes().size() <= kBricksPerPoint * points; };
   {
     const std::lock_guard lock(mutex_);

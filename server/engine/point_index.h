@@ -28,11 +28,13 @@ class PointIndex {
   // Of the grid's bricks.
   const std::vector<Tape>& tapes() const { return tapes_; }
   const TapeWindows& windows() const { return windows_; }
+  std::size_t instructions() const { return instructions_; }  // of all tapes
 
  private:
-  PointIndex(gpu::Device& device, const ResidentScene& scene, blobtree::PointGrid grid);
+  PointIndex(gpu::Device& device, const ResidentScene& scene, blobtree::PointGrid grid, blobtree::BrickList bricks);
 
   blobtree::PointGrid grid_;
+  std::size_t instructions_;
   TapeWindows windows_;
   std::vector<Tape> tapes_;
 };

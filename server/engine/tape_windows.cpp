@@ -25,11 +25,12 @@ KernelKind TapeWindows::windowed(const gpu::Device& device, const KernelKind& ki
 }
 
 absl::Status TapeWindows::upload(Session& session) {
-  packer_.finish();
-  ISOFIELD_ASSIGN_OR_RETURN(windows_, session.upload(std::span(packer_.data())));
+  const std::vector<blobtree::Float4> data = packer_.finish();
+  ISOFIELD_ASSIGN_OR_RETURN(windows_, session.upload(std::span(data)));
   if (has_long_tapes_) {
     ISOFIELD_ASSIGN_OR_RETURN(long_tapes_, session.upload(std::span(code_)));
   }
+  code_ = {};
   return absl::OkStatus();
 }
 

@@ -21,6 +21,9 @@ constexpr std::size_t kMostStructures = 1024;
 constexpr std::uint64_t kMostKernels = 256;
 constexpr int kNiceness = 10;
 
+// Of an instruction that is not light: 7 against 120 M points/s of eight spheres.
+constexpr std::size_t kHeavyWork = 16;
+
 // That cost less than a leaf.
 constexpr bool is_light(blobtree::Operator op) {
   using enum blobtree::Operator;
@@ -28,13 +31,19 @@ constexpr bool is_light(blobtree::Operator op) {
          op == kLinear || op == kSoften;
 }
 
+bool all_light(const blobtree::Tape& tape) {
+  return std::all_of(tape.code.begin(), tape.code.end(), [](const auto& i) { return is_light(i.op()); });
+}
+
 std::size_t most_instructions(const blobtree::Tape& tape) {
-  const bool all_light =
-      std::all_of(tape.code.begin(), tape.code.end(), [](const auto& i) { return is_light(i.op()); });
-  return all_light ? WrittenKernels::kMostInstructions : WrittenKernels::kMostHeavyInstructions;
+  return all_light(tape) ? WrittenKernels::kMostInstructions : WrittenKernels::kMostHeavyInstructions;
 }
 
 }  // namespace
+
+std::size_t WrittenKernels::work(const blobtree::Tape& tape) {
+  return tape.code.size() * (all_light(tape) ? 1 : kHeavyWork);
+}
 
 WrittenKernels::WrittenKernels(gpu::Device& device, TierTwoOptions options)
     : device_(device), options_(std::move(options)), store_(options_.folder) {

@@ -42,6 +42,9 @@ class WrittenKernels {
   // on lavapipe: beyond, sorting the points and pruning the tape gain more.
   static constexpr std::size_t kMostInstructions = 64, kMostHeavyInstructions = 12;
 
+  // What a point takes of a kernel of such a tape, in instructions of sums and the like.
+  static std::size_t work(const blobtree::Tape& tape);
+
   // The kernel of shaders/tape_points.comp for the scene's whole tape, or null where there is none, not yet, or never.
   // Never waits for one. `points`: how many will be evaluated now.
   const gpu::Pipeline* find(const ResidentScene& scene, bool with_gradient, std::uint64_t points);

@@ -30,15 +30,15 @@ void expect_covers(const Scene& scene, const std::vector<float>& xyz) {
   TapeInterpreter interpreter(tape);
   const PointBins bins = bin_points(tape, xyz);
   const std::size_t count = xyz.size() / 3;
-  ASSERT_TRUE(bins.order.empty() || bins.order.size() == count);
   std::vector<int> groups_of(count, 0);
   for (const PointGroup& g : bins.groups) {
     ASSERT_LE(g.first + g.count, count);
     ASSERT_LE(g.tape_begin + g.tape_count, bins.code.size());
     const std::span<const Instruction> code(bins.code.data() + g.tape_begin, g.tape_count);
     for (std::uint32_t i = g.first; i < g.first + g.count; ++i) {
-      const std::uint32_t point = bins.order.empty() ? i : bins.order[i];
+      const std::uint32_t point = bins.points ? bins.points[i].place : i;
       ASSERT_LT(point, count);
+      ASSERT_TRUE(!bins.points || std::memcmp(&bins.points[i], &xyz[3 * point], 3 * sizeof(float)) == 0);
       ++groups_of[point];
       if (point % 5 == 0) {
         const dvec3 p = point_at(xyz, point);

@@ -35,7 +35,8 @@ TEST(PointGrid, SortsEveryPointToATapeThatGivesItsField) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     const Scene scene = read_or_die(test_support::random_scene(seed, {.nodes = 40}));
     const Tape tape = compile_or_die(scene);
-    const auto grid = PointGrid::make(tape, {});
+    BrickList list;
+    const auto grid = PointGrid::make(tape, list, {});
     if (!grid.ok()) {
       EXPECT_EQ(grid.status().code(), absl::StatusCode::kFailedPrecondition) << grid.status();
       continue;
@@ -46,7 +47,6 @@ TEST(PointGrid, SortsEveryPointToATapeThatGivesItsField) {
     Random random(seed);
     const std::vector<float> xyz = points_about(tape.support, random, 3000);
     const PointGrid::Sorted sorted = grid->sort(xyz);
-    const BrickList& list = grid->bricks();
     ASSERT_EQ(sorted.starts.size(), list.bricks.size() + 2);
     std::vector<int> seen(3000);
     for (std::size_t b = 0; b <= list.bricks.size(); ++b) {
@@ -82,8 +82,9 @@ TEST(PointGrid, IsNoneWhereMostPrimitivesOverlap) {
   }
   *scene.add_nodes() = sum;
   const Tape tape = compile_or_die(read_or_die(scene));
-  EXPECT_EQ(PointGrid::make(tape, {}).status().code(), absl::StatusCode::kResourceExhausted);
-  EXPECT_EQ(PointGrid::make(tape, [] { return true; }).status().code(), absl::StatusCode::kCancelled);
+  BrickList bricks;
+  EXPECT_EQ(PointGrid::make(tape, bricks, {}).status().code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(PointGrid::make(tape, bricks, [] { return true; }).status().code(), absl::StatusCode::kCancelled);
 }
 
 }  // namespace

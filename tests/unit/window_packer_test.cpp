@@ -44,13 +44,13 @@ Tape many_leaves(int count) {
 
 // What the device reads of a window: its instructions, each with the records that it names.
 void expect_same(const Tape& tape, const ParameterBuffers& whole, const Instruction& original,
-                 const WindowPacker& packer, const Window& window, std::uint32_t place) {
+                 const std::vector<Float4>& data, const Window& window, std::uint32_t place) {
   Instruction packed;
-  std::memcpy(&packed, &packer.data()[window.code + place], sizeof packed);
+  std::memcpy(&packed, &data[window.code + place], sizeof packed);
   EXPECT_EQ(packed.code, original.code);
   const auto same = [&](std::uint32_t at, std::uint32_t part, const std::vector<Float4>& from, std::uint32_t record,
                         std::uint32_t size) {
-    const Float4* found = part == Window::kWhole ? &from[at] : &packer.data()[part + at];
+    const Float4* found = part == Window::kWhole ? &from[at] : &data[part + at];
     EXPECT_EQ(std::memcmp(found, &from[record], size * sizeof(Float4)), 0);
     EXPECT_LE(at + size, kWindowSize);
   };
@@ -85,7 +85,7 @@ TEST(WindowPacker, WindowsHoldWhatTheirInstructionsName) {
       }
       added.push_back({begin, length, window, place});
     }
-    packer.finish();
+    const std::vector<Float4> data = packer.finish();
     ASSERT_EQ(packer.windows().size(), added.back().window + 1);
     EXPECT_GT(packer.windows().size(), 2u);
     for (const Window& w : packer.windows()) {
@@ -94,7 +94,7 @@ TEST(WindowPacker, WindowsHoldWhatTheirInstructionsName) {
     }
     for (const Added& a : added) {
       for (std::uint32_t n = 0; n < a.count; ++n) {
-        expect_same(tape, parameters, tape.code[a.begin + n], packer, packer.windows()[a.window], a.place + n);
+        expect_same(tape, parameters, tape.code[a.begin + n], data, packer.windows()[a.window], a.place + n);
       }
     }
   }
