@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace isofield::blobtree {
@@ -25,7 +26,13 @@ class Binner {
       return std::move(bins_);
     }
     bins_.points = std::make_unique_for_overwrite<PlacedPoint[]>(count);
-    for (std::uint32_t i = 0; i < count; ++i) bins_.points[i] = {xyz_[3 * i], xyz_[3 * i + 1], xyz_[3 * i + 2], i};
+    const auto finite = [&](std::uint32_t n) {
+      const float x = xyz_[n];
+      return std::isfinite(x) ? x : 0;
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+      bins_.points[i] = {finite(3 * i), finite(3 * i + 1), finite(3 * i + 2), i};
+    }
     scratch_ = std::make_unique_for_overwrite<PlacedPoint[]>(count);
     arena_ = tape_.code;
     levels_.push_back({0, arena_.size()});

@@ -19,20 +19,21 @@ struct PlacedPoint {
 };
 
 struct PointGroup {
-  std::uint32_t first, count;  // in PointBins::points
+  std::uint32_t first, count;            // in PointBins::points
   std::uint32_t tape_begin, tape_count;  // 0 instructions: the field is 0
 };
 
 struct PointBins {
   std::unique_ptr<PlacedPoint[]> points;  // null: the batch as it is, in one group
-  std::vector<PointGroup> groups;  // that hold every point once
+  std::vector<PointGroup> groups;         // that hold every point once
   std::vector<Instruction> code;
 };
 
 // Tapes of so few instructions are not worth sorting points for.
 inline constexpr std::size_t kUnsortedInstructions = 12;
 
-// `xyz` holds 3 finite numbers a point. All of them are one group where the tape is not worth sorting for.
+// `xyz` holds 3 numbers a point, of which those that are not finite are taken for 0. All of them are one group where the
+// tape is not worth sorting for.
 PointBins bin_points(const Tape& tape, std::span<const float> xyz);
 
 }  // namespace isofield::blobtree

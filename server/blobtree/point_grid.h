@@ -30,7 +30,8 @@ class PointGrid {
     std::unique_ptr<PlacedPoint[]> points;  // by brick
     std::vector<std::uint32_t> starts;      // where each brick's begin, those in no brick's, and the end
   };
-  // `xyz` holds 3 finite numbers a point. Within a brick they keep their order.
+  // `xyz` holds 3 numbers a point; where they are not finite, the point is in any bin. Within a brick they keep their
+  // order.
   Sorted sort(std::span<const float> xyz) const;
 
  private:

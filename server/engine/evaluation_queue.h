@@ -30,7 +30,7 @@ struct QueueLimits {
 // One request.
 struct PointBatch {
   SceneLease scene;
-  std::span<const float> xyz;  // 3 finite numbers a point
+  std::span<const float> xyz;  // as of FieldEvaluator::evaluate
   Quantity quantity = Quantity::kValue;
   std::span<float> out;  // components(quantity) numbers a point
   int priority = 0;      // the higher first

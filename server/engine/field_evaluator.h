@@ -42,7 +42,8 @@ class FieldEvaluator {
   // Compiles what the others would compile on first use.
   absl::Status prepare(const ResidentScene& scene, Quantity quantity);
 
-  // xyz: 3 finite numbers a point; out: components(quantity) numbers a point.
+  // xyz: 3 finite numbers a point; out: components(quantity) numbers a point. Where others write to xyz meanwhile, any
+  // numbers come out for these points, and nothing else goes wrong.
   absl::Status evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
                         const Cancelled& cancelled = {}, Submission submission = {});
 

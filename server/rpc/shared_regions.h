@@ -21,7 +21,7 @@ struct SharedLimits {
   std::uint64_t max_bytes = 1u << 30;  // of all regions
 };
 
-// Part of a region, which lives as long. What it holds may change at any time: read it once.
+// Part of a region, which lives as long. What it holds may change at any time.
 struct SharedBytes {
   std::shared_ptr<const void> region;
   std::span<std::byte> bytes;

@@ -5,9 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "isofield/v1/scene.pb.h"
 #include "rpc/shared_regions.h"
@@ -27,7 +27,8 @@ class RowArray {
   static absl::StatusOr<RowArray> read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
                                        const Words& words);
 
-  // The same in shared memory, of which it makes a copy; and the errors of SharedRegions::find.
+  // The same in shared memory, which the client may change meanwhile: numbers in place do. And the errors of
+  // SharedRegions::find.
   static absl::StatusOr<RowArray> read(const v1::SharedTensor& tensor, const SharedRegions& regions,
                                        std::uint64_t columns, std::uint64_t max_rows, const Words& words);
 
@@ -38,11 +39,11 @@ class RowArray {
   // All but the bytes.
   static absl::Status check(v1::Tensor::DType dtype, const Shape& shape, std::uint64_t columns, std::uint64_t max_rows,
                             const Words& words);
-  template <class T>
-  void convert(const std::byte* data, std::size_t count);
+  void convert(const std::byte* data, std::size_t count);  // from float64
 
   std::span<const float> numbers_;
-  std::vector<float> converted_;
+  std::unique_ptr<float[]> converted_;
+  std::shared_ptr<const void> region_;  // that the numbers lie in
 };
 
 // Points as float32.
@@ -53,7 +54,7 @@ class PointArray {
   static absl::StatusOr<PointArray> read(const v1::Tensor& tensor, std::uint64_t max_points,
                                          const RowArray::Words& words = {"points", "points",
                                                                          "send chunks by EvaluateStream"});
-  // The same in shared memory: a copy, so that what was found finite stays so.
+  // The same in shared memory, where what was found finite need not stay so.
   static absl::StatusOr<PointArray> read(const v1::SharedTensor& tensor, const SharedRegions& regions,
                                          std::uint64_t max_points,
                                          const RowArray::Words& words = {"shared_points", "points",

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "blobtree/point_grid.h"
 #include "reference/evaluator.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
@@ -74,6 +78,35 @@ TEST(PointBins, CoverEqualPointsAndPointsOnALine) {
   expect_covers(scene, same);
   expect_covers(scene, line);
   expect_covers(scene, neighbours);
+}
+
+// As shared memory may hold them, whatever was found there before.
+TEST(PointBins, AndPointGridEndWhereNumbersAreNotFinite) {
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::vector<float>> choices{
+      {nan}, {inf}, {-inf}, {inf, -inf}, {nan, 0.5f, -0.5f, 0.1f}, {inf, 0.3f, nan, -0.2f, 3e38f, -3e38f}};
+  int grids = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const Tape tape = compile_or_die(read_or_die(test_support::random_scene(seed, {.nodes = 80})));
+    ASSERT_GT(tape.code.size(), kUnsortedInstructions);
+    BrickList list;
+    const auto grid = PointGrid::make(tape, list, {});
+    Random random(seed);
+    for (const std::vector<float>& from : choices) {
+      std::vector<float> xyz(3000);
+      for (float& x : xyz) x = from[static_cast<std::size_t>(random.integer(0, static_cast<int>(from.size()) - 1))];
+      const PointBins bins = bin_points(tape, xyz);
+      std::vector<int> seen(1000);
+      for (const PointGroup& g : bins.groups) {
+        for (std::uint32_t n = g.first; n < g.first + g.count; ++n) ++seen[bins.points[n].place];
+      }
+      EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 1000);
+      if (!grid.ok()) continue;  // of a scene without end
+      ++grids;
+      EXPECT_EQ(grid->sort(xyz).starts.back(), 1000u);
+    }
+  }
+  EXPECT_GT(grids, 12);
 }
 
 TEST(PointBins, AnEmptyBatchHasNoGroups) {
