@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <iostream>
 
@@ -44,7 +43,7 @@ TEST(FieldOnDevice, AgreesWithTheReferenceOnRandomScenes) {
   double worst_value = 0, worst_gradient = 0;
   int smooth = 0, points = 0;
   // Every scene has kernels of its own to compile, which is what takes the time.
-  const std::uint64_t seeds = std::getenv("ISOFIELD_TESTS_FEW_SCENES") ? 2 : 6;
+  const std::uint64_t seeds = scene_count(6);
   for (const int nodes : {1, 2, 3, 5, 10, 20, 40, 80, 120, 200}) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
       const v1::Scene message = test_support::random_scene(1000 * nodes + seed, {.nodes = nodes});

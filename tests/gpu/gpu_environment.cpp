@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 
@@ -54,6 +55,10 @@ engine::KernelCache& kernels() {
 engine::VolumeCache& volumes() {
   static engine::VolumeCache cache(device(), kernels());
   return cache;
+}
+
+std::uint64_t scene_count(std::uint64_t many) {
+  return std::getenv("ISOFIELD_TESTS_FEW_SCENES") ? std::min<std::uint64_t>(many, 2) : many;
 }
 
 engine::SceneLease resident(const v1::Scene& scene) {

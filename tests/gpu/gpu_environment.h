@@ -12,6 +12,10 @@ gpu::Device& device();
 engine::KernelCache& kernels();
 engine::VolumeCache& volumes();
 
+// How many random scenes of each kind a test takes; two where ISOFIELD_TESTS_FEW_SCENES is set, since every kind of
+// scene has kernels of its own to compile.
+std::uint64_t scene_count(std::uint64_t many);
+
 // Read, compiled and uploaded; the process ends where that is refused.
 engine::SceneLease resident(const v1::Scene& scene);
 

@@ -104,7 +104,7 @@ std::optional<blobtree::Box> bounds_if_needed(const v1::Scene& scene) {
 
 TEST(Mesher, MakesManifoldsOfRandomScenes) {
   for (const int nodes : {3, 10, 40, 120}) {
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    for (std::uint64_t seed = 0; seed < scene_count(6); ++seed) {
       const v1::Scene scene = test_support::random_scene(50 * nodes + seed, {.nodes = nodes});
       // Coarse cells against small features: the hard case for topology.
       for (const double cell : {0.31, 0.11, 0.05}) {

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -90,8 +89,7 @@ class Folder {
 
 TEST(WrittenKernels, AgreeWithTheInterpreterOnRandomScenes) {
   WrittenKernels written(device(), {});
-  // Every structure is compiled, which is what takes the time.
-  const std::uint64_t seeds = std::getenv("ISOFIELD_TESTS_FEW_SCENES") ? 1 : 4;
+  const std::uint64_t seeds = scene_count(4);
   std::uint64_t made = 0;
   for (const int nodes : {1, 3, 5, 8, 12}) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
