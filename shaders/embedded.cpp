@@ -23,6 +23,7 @@ namespace {
 #include "mesh_vertices_wide.inc"
 #include "operator_blend_probe.inc"
 #include "operator_eval.inc"
+#include "operator_first_probe.inc"
 #include "operator_volume_probe.inc"
 #include "points_gradient.inc"
 #include "points_value.inc"
@@ -51,6 +52,7 @@ const InRounds kMeshNormals{mesh_normals_wide, mesh_normals_narrow};
 const Spirv kMeshTriangles{mesh_triangles};
 const Spirv kOperatorEval{operator_eval};
 const Spirv kOperatorBlendProbe{operator_blend_probe};
+const Spirv kOperatorFirstProbe{operator_first_probe};
 const Spirv kOperatorVolumeProbe{operator_volume_probe};
 const Spirv kSampledVolume{sampled_volume};
 const Spirv kSmoothVolumeHigh{smooth_volume_high};

@@ -21,6 +21,6 @@ extern const InRounds kMeshCrossings, kMeshPlace, kMeshCreases, kMeshVertices, k
 extern const Spirv kOperatorEval;
 // operator_volume.comp by silhouette and half; sampled_volume.comp.
 extern const Spirv kSmoothVolumeLow, kSmoothVolumeHigh, kTableVolumeLow, kTableVolumeHigh, kSampledVolume;
-extern const Spirv kOperatorBlendProbe, kOperatorVolumeProbe;
+extern const Spirv kOperatorBlendProbe, kOperatorFirstProbe, kOperatorVolumeProbe;
 
 }  // namespace isofield::shaders

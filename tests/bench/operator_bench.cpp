@@ -58,7 +58,8 @@ void build_profile(benchmark::State& state, const Silhouette& silhouette, const 
 }
 
 // Values and first and second partials at random fields: of a volume of `size`, or of the smooth profile where it is 0.
-void evaluate(benchmark::State& state, int size) {
+// `is_first`: of that, no second ones.
+void evaluate(benchmark::State& state, int size, bool is_first = false) {
   Devices& d = devices();
   test_support::Random random(2);
   constexpr std::uint32_t kCount = 1 << 20;
@@ -71,8 +72,10 @@ void evaluate(benchmark::State& state, int size) {
   if (!session.run().ok()) return state.SkipWithError("no upload");
   const auto results = gpu::Buffer::create(*d.device, std::size_t{48} * kCount, gpu::Buffer::Use::kDevice).value();
   const engine::VolumeLease volume = size > 0 ? d.volumes->get(gradient(size, {})).value() : nullptr;
-  const gpu::Pipeline* kernel =
-      d.kernels->get(volume ? shaders::kOperatorVolumeProbe : shaders::kOperatorBlendProbe, {.volume_set = 1}).value();
+  const shaders::Spirv& shader = volume     ? shaders::kOperatorVolumeProbe
+                                 : is_first ? shaders::kOperatorFirstProbe
+                                            : shaders::kOperatorBlendProbe;
+  const gpu::Pipeline* kernel = d.kernels->get(shader, {.volume_set = 1}).value();
   gpu::Commands::Bindings bindings{{4, &argument_buffer}, {5, &results}};
   if (volume) bindings.emplace_back(12, &volume->buffer());
   const std::array<std::uint32_t, 4> constants{kCount, 0, static_cast<std::uint32_t>(size), 0};
@@ -108,6 +111,7 @@ void add(const std::string& name, Function f) {
   add("operator/profile/build bulge contact",
       [bulge](benchmark::State& s) { build_profile(s, bulge, operators::contact()); });
   add("operator/profile/evaluate smooth", [](benchmark::State& s) { evaluate(s, 0); });
+  add("operator/profile/evaluate smooth, first partials", [](benchmark::State& s) { evaluate(s, 0, true); });
   add("operator/profile/silhouette table of a bulge", [bulge](benchmark::State& s) {
     for (auto _ : s) benchmark::DoNotOptimize(operators::silhouette_table(bulge));
   });
