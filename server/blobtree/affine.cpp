@@ -38,10 +38,13 @@ Affine::Stretch Affine::stretch() const {
   // Singular values are the roots of the eigenvalues of A^T A: Jacobi rotations until it is diagonal.
   const glm::dmat3 m = to_glm(linear);
   glm::dmat3 s = glm::transpose(m) * m;
-  for (int sweep = 0; sweep < 30; ++sweep) {
+  bool is_diagonal = false;
+  for (int sweep = 0; sweep < 30 && !is_diagonal; ++sweep) {
+    is_diagonal = true;
     for (int p = 0; p < 2; ++p) {
       for (int q = p + 1; q < 3; ++q) {
         if (std::abs(s[p][q]) <= 1e-17 * std::sqrt(std::abs(s[p][p] * s[q][q]))) continue;
+        is_diagonal = false;
         const double angle = 0.5 * std::atan2(2 * s[p][q], s[q][q] - s[p][p]);
         glm::dmat3 j(1);
         j[p][p] = j[q][q] = std::cos(angle);

@@ -25,6 +25,9 @@ class Culler {
   }
 
   absl::StatusOr<BrickList> run() {
+    for (int a = 0; a < 3; ++a) {
+      if (wanted_.low[a] >= wanted_.high[a]) return std::move(list_);
+    }
     std::uint32_t level = 0;
     while ((std::uint64_t{1} << level) < *std::max_element(bricks_.begin(), bricks_.end())) ++level;
     arena_ = tape_.code;
@@ -60,11 +63,19 @@ class Culler {
     std::size_t stored;        // where it lies in the result, or kNotStored
   };
 
+  // Of the wanted bricks in the cell: where these are few, their tape is short from the first cell on.
   Box box_of(const Cell& cell) const {
-    Box box =
-        request_.lattice.box(cell.x, cell.y, cell.z, static_cast<double>(std::uint64_t{1} << cell.level) * kBrickCells);
+    const auto first = [&](std::uint32_t i, int axis) { return std::max(i << cell.level, wanted_.low[axis]); };
+    const auto last = [&](std::uint32_t i, int axis) {
+      const std::uint64_t end = (std::uint64_t{i} + 1) << cell.level;
+      return request_.within ? static_cast<std::uint32_t>(std::min<std::uint64_t>(end, wanted_.high[axis])) - 1
+                             : static_cast<std::uint32_t>(end - 1);
+    };
+    const Lattice& lattice = request_.lattice;
+    const Box low = lattice.box(first(cell.x, 0), first(cell.y, 1), first(cell.z, 2), kBrickCells);
+    const Box high = lattice.box(last(cell.x, 0), last(cell.y, 1), last(cell.z, 2), kBrickCells);
     const dvec3 margin{request_.margin, request_.margin, request_.margin};
-    return {box.min - margin, box.max + margin};
+    return {low.min - margin, high.max + margin};
   }
 
   bool is_kept(const Cell& cell, const Pruned& p) const {

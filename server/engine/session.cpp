@@ -73,6 +73,7 @@ absl::Status Session::download_bytes(const Buffer& buffer, std::span<std::byte> 
 }
 
 absl::Status Session::submit() {
+  if (!commands_.has_work()) return absl::OkStatus();
   if (!turn_) turn_ = device_->turns().take(urgency_);
   absl::Status status = commands_.submit();
   if (!status.ok()) turn_ = {};

@@ -35,7 +35,7 @@ vk::DescriptorSet Commands::Impl::next_set() {
 void Commands::Impl::reset() {
   pool.reset();
   if (is_spent) device.device->resetFences(*fence);
-  is_spent = false;
+  is_spent = has_work = false;
   if (set_pools.empty()) return;
   set_pools.erase(set_pools.begin() + 1, set_pools.end());
   set_pools.front().reset();
@@ -103,6 +103,7 @@ absl::Status Commands::dispatch(const Pipeline& pipeline, const Bindings& bindin
     b.pushConstants<std::byte>(**impl_->device.pipeline_layout, vk::ShaderStageFlagBits::eCompute, 0,
                                vk::ArrayProxy<const std::byte>(push_constants.size(), push_constants.data()));
     b.dispatch(groups, 1, 1);
+    impl_->has_work = true;
     return absl::OkStatus();
   } catch (const vk::SystemError& error) {
     return to_status(error, "recording a dispatch");
@@ -123,10 +124,16 @@ void Commands::copy(const Buffer& from, std::size_t from_offset, const Buffer& t
                     std::size_t bytes) {
   impl_->buffer.copyBuffer(**from.impl().buffer, **to.impl().buffer,
                            vk::BufferCopy(from.impl().offset + from_offset, to.impl().offset + to_offset, bytes));
+  impl_->has_work = true;
 }
 
 void Commands::fill_zero(const Buffer& buffer) {
   impl_->buffer.fillBuffer(**buffer.impl().buffer, buffer.impl().offset, buffer.size(), 0);
+  impl_->has_work = true;
+}
+
+bool Commands::has_work() const {
+  return impl_->has_work;
 }
 
 absl::Status Commands::submit() {

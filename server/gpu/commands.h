@@ -43,6 +43,8 @@ class Commands {
   void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset, std::size_t bytes);
   void fill_zero(const Buffer& buffer);
 
+  // Whether anything is recorded that is to be submitted.
+  bool has_work() const;
   absl::Status submit();
   // Until the device is done; at once when nothing was submitted.
   absl::Status wait();

@@ -22,6 +22,7 @@ struct Commands::Impl {
   vk::raii::Fence fence;
   std::vector<vk::raii::DescriptorPool> set_pools;
   std::uint32_t sets_left = 0;  // in the last pool
+  bool has_work = false;
   bool is_submitted = false;
   bool is_spent = false;  // submitted, whatever became of it
 };
