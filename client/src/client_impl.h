@@ -63,12 +63,18 @@ struct Client::Impl {
     }
   }
 
-  // `method`: grpc::Status(grpc::ClientContext*), one message each way.
+  // `method`: grpc::Status(grpc::ClientContext*), one message each way. Tried again where the server has refused it
+  // unseen and says when to come back.
   template <typename Method>
   absl::Status call(const Method& method) const {
-    grpc::ClientContext context;
-    set_timeout(context, options.unary_timeout);
-    return from_grpc(method(&context), address);
+    for (int attempt = 1;; ++attempt) {
+      grpc::ClientContext context;
+      set_timeout(context, options.unary_timeout);
+      const grpc::Status status = method(&context);
+      const auto pause = status.ok() ? std::nullopt : retry_after(context);
+      if (!pause || attempt >= options.attempts) return from_grpc(status, address);
+      std::this_thread::sleep_for(*pause);
+    }
   }
 };
 

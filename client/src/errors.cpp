@@ -1,9 +1,17 @@
 #include "errors.h"
 
 #include <absl/strings/match.h>
+#include <absl/strings/numbers.h>
 #include <absl/strings/str_cat.h>
 
+#include <algorithm>
+
 namespace isofield {
+namespace {
+
+constexpr std::int64_t kLongestPauseMs = 10'000;
+
+}  // namespace
 
 absl::Status from_grpc(const grpc::Status& status, const std::string& address) {
   if (status.ok()) return absl::OkStatus();
@@ -35,6 +43,17 @@ absl::Status from_grpc(const grpc::Status& status, const std::string& address) {
   }
   return absl::Status(code,
                       detail.empty() ? absl::StrCat("isofieldd at ", address, " failed without a message") : detail);
+}
+
+std::optional<std::chrono::milliseconds> retry_after(const grpc::ClientContext& context) {
+  const auto& metadata = context.GetServerTrailingMetadata();
+  const auto hint = metadata.find("grpc-retry-pushback-ms");
+  std::int64_t ms = -1;
+  if (hint == metadata.end() || !absl::SimpleAtoi(absl::string_view(hint->second.data(), hint->second.size()), &ms) ||
+      ms < 0) {
+    return std::nullopt;
+  }
+  return std::chrono::milliseconds(std::min(ms, kLongestPauseMs));
 }
 
 }  // namespace isofield

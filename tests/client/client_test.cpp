@@ -176,6 +176,16 @@ TEST_F(ClientTest, RetriesReadsOnly) {
   EXPECT_EQ(server_.reads, 1);
 }
 
+TEST_F(ClientTest, ComesBackToABusyServer) {
+  server_.busy_for = 2;
+  EXPECT_TRUE(client_.evaluate(inline_scene(ball()), points(2), false).ok());
+  EXPECT_EQ(server_.reads, 3);
+  server_.busy_for = 3;
+  EXPECT_EQ(client_.evaluate(inline_scene(ball()), points(2), false).status().code(),
+            absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(server_.reads, 6);
+}
+
 TEST_F(ClientTest, MalformedAnswersAreErrors) {
   server_.short_answer = true;
   EXPECT_EQ(client_.evaluate(inline_scene(ball()), points(2), false).status().code(), absl::StatusCode::kInternal);

@@ -108,9 +108,14 @@ class FakeServer::Fields : public v1::FieldService::Service {
  public:
   explicit Fields(FakeServer& owner) : owner_(owner) {}
 
-  grpc::Status Evaluate(grpc::ServerContext*, const v1::EvaluateRequest* request,
+  grpc::Status Evaluate(grpc::ServerContext* context, const v1::EvaluateRequest* request,
                         v1::EvaluateResponse* response) override {
     if (auto status = owner_.admit_read(); !status.ok()) return status;
+    if (owner_.busy_for > 0) {
+      --owner_.busy_for;
+      context->AddTrailingMetadata("grpc-retry-pushback-ms", "1");
+      return grpc::Status(grpc::StatusCode::RESOURCE_EXHAUSTED, "too many wait");
+    }
     if (auto status = owner_.find(request->scene()); !status.ok()) return status;
     evaluate(request->points(), request->quantity() == v1::VALUE_AND_GRADIENT, *response->mutable_result());
     if (owner_.short_answer) response->mutable_result()->mutable_data()->pop_back();

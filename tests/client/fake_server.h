@@ -27,6 +27,7 @@ class FakeServer {
 
   // How requests shall fail, and what was seen of them.
   std::atomic<int> unavailable_for = 0;  // so many reads are answered by UNAVAILABLE
+  std::atomic<int> busy_for = 0;         // so many evaluations of one message are refused, to be sent again at once
   std::atomic<int> reads = 0;
   std::atomic<int> writes = 0;
   std::atomic<int> stream_messages = 0;

@@ -29,7 +29,8 @@ struct ClientOptions {
   std::optional<std::chrono::milliseconds> unary_timeout = std::chrono::seconds(60);
   // Of streams: large evaluations, grids and meshes.
   std::optional<std::chrono::milliseconds> stream_timeout;
-  // How often a request that only reads is tried while the server is UNAVAILABLE; writes are tried once. >= 1.
+  // How often a request that only reads is tried while the server is UNAVAILABLE; writes are tried once. And how often a
+  // request of one message is sent to a server that is busy, and says after what time to come back. >= 1.
   int attempts = 3;
   // Before the second attempt; doubled before each further one.
   std::chrono::milliseconds backoff = std::chrono::milliseconds(100);
