@@ -18,6 +18,7 @@ namespace {
 #include "mesh_place_wide.inc"
 #include "mesh_quads.inc"
 #include "mesh_sample.inc"
+#include "mesh_share.inc"
 #include "mesh_triangles.inc"
 #include "mesh_vertices_narrow.inc"
 #include "mesh_vertices_wide.inc"
@@ -40,6 +41,7 @@ const Spirv kPointsGradient{points_gradient};
 const Spirv kGridValue{grid_value};
 const Spirv kGridGradient{grid_gradient};
 const Spirv kMeshSample{mesh_sample};
+const Spirv kMeshShare{mesh_share};
 const Spirv kMeshClassify{mesh_classify};
 const Spirv kMeshConnect{mesh_connect};
 const Spirv kMeshList{mesh_list};

@@ -1,4 +1,4 @@
-// Mesher, pass 2: which corners of each cell are inside, four cells an invocation.
+// Mesher, pass 3: which corners of each cell are inside, four cells an invocation.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Mesher, pass 3: numbers the vertices of each brick's cells and counts vertices and quads, one invocation a brick.
+// Mesher, pass 4: numbers the vertices of each brick's cells and counts vertices and quads, one invocation a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

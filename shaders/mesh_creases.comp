@@ -1,4 +1,4 @@
-// Mesher, pass 7: draws the vertices on creases to where the sides of the crease meet, one workgroup a brick.
+// Mesher, pass 8: draws the vertices on creases to where the sides of the crease meet, one workgroup a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require

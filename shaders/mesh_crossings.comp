@@ -1,4 +1,4 @@
-// Mesher, pass 5: where the surface crosses each quad's edge, and its normal there, one workgroup a brick.
+// Mesher, pass 6: where the surface crosses each quad's edge, and its normal there, one workgroup a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require

@@ -1,4 +1,4 @@
-// Mesher, pass 4: lists every vertex with its cell and patch, and every quad with its edge, one invocation a brick.
+// Mesher, pass 5: lists every vertex with its cell and patch, and every quad with its edge, one invocation a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

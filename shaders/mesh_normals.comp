@@ -1,4 +1,4 @@
-// Mesher, pass 9: unit outward normals from the field's gradient, one workgroup a brick.
+// Mesher, pass 10: unit outward normals from the field's gradient, one workgroup a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

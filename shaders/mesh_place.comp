@@ -1,4 +1,4 @@
-// Mesher, pass 6: where every vertex starts, one workgroup a brick: at the mean of its patch's crossings or, in bricks
+// Mesher, pass 7: where every vertex starts, one workgroup a brick: at the mean of its patch's crossings or, in bricks
 // that may have creases, where the tangent planes there meet (dual contouring: Ju, Losasso, Schaefer, Warren 2002); and
 // finds the creases.
 #version 450

@@ -1,4 +1,4 @@
-// Mesher, pass 10: how each quad is cut into triangles.
+// Mesher, pass 11: how each quad is cut into triangles.
 //
 // Within the envelope, the tetrahedra that the quad's edge spans with two consecutive vertices each, no two quads'
 // triangles meet but where they share vertices: envelopes of different edges have no inner point in common where the

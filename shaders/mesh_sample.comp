@@ -1,22 +1,23 @@
-// Mesher, pass 1: the field at the corners of a brick's cells, one workgroup a brick.
+// Mesher, pass 1: the field at the corners of bricks' cells, eight invocations a part of a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
 #include "interpreter.glsl"
-#include "mesh_constants.glsl"
+#include "mesh_samples.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x = 64) in;
 
-layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };  // bricks of this dispatch's kernel
+// The brick, and its place in the slab and the part in the lowest four bits: of this dispatch's kernel.
+layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };
 layout(std430, binding = 6) writeonly buffer Samples { float samples[]; };
 
 void main() {
-  uvec2 job = uvec2(jobs[2u * (first + gl_WorkGroupID.x)], jobs[2u * (first + gl_WorkGroupID.x) + 1u]);
-  Brick b = brick(job.x);
-  // Surplus invocations repeat the last corner: no branch around the tape (TAPE_LENGTH).
-  uint n = min(gl_LocalInvocationID.x, CORNERS_PER_BRICK - 1u);
-  uvec3 offset = uvec3(n % BRICK_CORNERS, n / BRICK_CORNERS % BRICK_CORNERS, n / (BRICK_CORNERS * BRICK_CORNERS));
-  uvec3 i = b.at * BRICK_CELLS + offset;
+  // Surplus invocations repeat the last part: no branch around the tape (TAPE_LENGTH).
+  uint at = 2u * (first + min(gl_GlobalInvocationID.x / PART_CORNERS, count - 1u));
+  Brick b = brick(jobs[at]);
+  uint place = jobs[at + 1u] >> 4u, part = jobs[at + 1u] & 15u;
+  uvec3 corner = corner_of_part(part, gl_GlobalInvocationID.x % PART_CORNERS);
+  uvec3 i = b.at * BRICK_CELLS + corner;
   float f = inward() * evaluate(corner_position(i), b.tape_begin, b.tape_count).f;
-  samples[job.y * CORNERS_PER_BRICK + n] = is_cap(i) ? cap_value() : f;
+  samples[place * CORNERS_PER_BRICK + sample_place(corner)] = is_cap(i) ? cap_value() : f;
 }

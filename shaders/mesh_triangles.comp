@@ -1,4 +1,4 @@
-// Mesher, pass 11: the triangles of each quad, counter-clockwise seen from outside, and the vertices amid fans.
+// Mesher, pass 12: the triangles of each quad, counter-clockwise seen from outside, and the vertices amid fans.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

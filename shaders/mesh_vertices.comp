@@ -1,4 +1,4 @@
-// Mesher, pass 8: draws every vertex onto the surface, one workgroup a brick.
+// Mesher, pass 9: draws every vertex onto the surface, one workgroup a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "engine/mesh_constants.h"
 #include "engine/mesh_creases.h"
 #include "engine/mesh_lattice.h"
+#include "engine/mesh_samples.h"
 #include "engine/mesh_triangles.h"
 #include "engine/session.h"
 #include "engine/status_macros.h"
@@ -32,6 +34,8 @@ constexpr std::uint32_t kCorners = kEdgeCorners * kEdgeCorners * kEdgeCorners;
 // it; some 80 ms of gradient blends on two cores.
 constexpr std::uint32_t kSlab = 16'384;
 constexpr std::uint64_t kSlabInstructions = 1u << 16;
+// Parts of bricks' samples that a workgroup of shaders/mesh_sample.comp takes, and of shaders/mesh_share.comp.
+constexpr std::uint32_t kSamplePartsPerGroup = 8;
 using Constants = MeshConstants;
 using Pair = MeshStart;
 
@@ -107,20 +111,30 @@ class Run {
     return session.run();
   }
 
-  // Runs a kernel that follows tapes over (brick, place in its slab) pairs, which binding 5 lists in `keep`: by window,
-  // bricks of a single leaf by the kernel that knows no operator, the others by the scene's.
+  // What a kernel that follows tapes does at a time, of bricks whose tapes it finds in one window; bricks of a single
+  // leaf are of the kernel that knows no operator, the others of the scene's.
+  struct Group {
+    std::uint32_t window;
+    bool is_single;
+    auto operator<=>(const Group&) const = default;
+  };
+  using Jobs = std::map<Group, std::vector<Pair>>;
+  Group group_of(std::uint32_t brick) const { return {windows_[brick], list_.bricks[brick].tape_count == 1}; }
+
+  // A workgroup a brick: the jobs are bricks and their places in the slab.
   template <class Wanted>
   absl::Status run_bricks(Session& session, const shaders::Spirv& shader, std::uint32_t first, std::uint32_t count,
                           Wanted is_wanted, std::vector<Buffer>& keep, gpu::Commands::Bindings own) {
-    struct Group {
-      std::uint32_t window;
-      bool is_single;
-      auto operator<=>(const Group&) const = default;
-    };
-    std::map<Group, std::vector<Pair>> groups;
+    Jobs jobs;
     for (std::uint32_t b = first; b < first + count; ++b) {
-      if (is_wanted(b)) groups[{windows_[b], list_.bricks[b].tape_count == 1}].push_back({b, b - first});
+      if (is_wanted(b)) jobs[group_of(b)].push_back({b, b - first});
     }
+    return run_jobs(session, shader, jobs, 1, keep, std::move(own));
+  }
+
+  // So many jobs a workgroup; binding 5 lists them in `keep`.
+  absl::Status run_jobs(Session& session, const shaders::Spirv& shader, const Jobs& groups, std::uint32_t per_workgroup,
+                        std::vector<Buffer>& keep, gpu::Commands::Bindings own) {
     if (groups.empty()) return absl::OkStatus();
     std::vector<Pair> jobs;
     for (const auto& [group, members] : groups) jobs.insert(jobs.end(), members.begin(), members.end());
@@ -131,8 +145,8 @@ class Run {
       const KernelKind kind = group.is_single ? KernelKind::single_leaf(scene_.tape()) : KernelKind::of(scene_.tape());
       ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shader, tapes_->kind(kind, group.window)));
       constants.count = static_cast<std::uint32_t>(members.size());
-      ISOFIELD_RETURN_IF_ERROR(
-          session.commands().dispatch(*kernel, tapes_->bindings(group.window, own), constants, constants.count));
+      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel, tapes_->bindings(group.window, own), constants,
+                                                           (constants.count + per_workgroup - 1) / per_workgroup));
       constants.first += constants.count;
     }
     return absl::OkStatus();
@@ -151,6 +165,7 @@ class Run {
 
   absl::Status sample() {
     const auto total = static_cast<std::uint32_t>(list_.bricks.size());
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* share, kernels_.get(shaders::kMeshShare));
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* classify, kernels_.get(shaders::kMeshClassify));
     for (std::uint32_t first = 0, count = 0; first < total; first += count) {
       ISOFIELD_RETURN_IF_ERROR(check(0.1 + 0.5 * first / total));
@@ -159,10 +174,26 @@ class Run {
       ISOFIELD_ASSIGN_OR_RETURN(Buffer samples, session.scratch(std::size_t{4} * kCorners * count));
       std::vector<Buffer> keep;
       keep.reserve(2);
-      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, shaders::kMeshSample, first, count,
-                                          [](std::uint32_t) { return true; }, keep, {{4, &bricks_}, {6, &samples}}));
+      const SampleParts parts = sample_parts(brick_neighbours_, first, count);
+      Jobs jobs;
+      for (std::uint32_t b = first; b < first + count; ++b) {
+        std::vector<Pair>& group = jobs[group_of(b)];
+        for (std::uint32_t left = parts.evaluated[b - first]; left != 0; left &= left - 1) {
+          group.push_back({b, (b - first) * kSampleParts + static_cast<std::uint32_t>(std::countr_zero(left))});
+        }
+      }
+      ISOFIELD_RETURN_IF_ERROR(
+          run_jobs(session, shaders::kMeshSample, jobs, kSamplePartsPerGroup, keep, {{4, &bricks_}, {6, &samples}}));
       session.commands().barrier();
       Constants constants = constants_;
+      constants.count = static_cast<std::uint32_t>(parts.taken_over.size());
+      if (constants.count > 0) {
+        ISOFIELD_ASSIGN_OR_RETURN(Buffer copies, session.upload(std::span(parts.taken_over)));
+        ISOFIELD_RETURN_IF_ERROR(
+            session.commands().dispatch(*share, {{5, &keep.emplace_back(std::move(copies))}, {6, &samples}}, constants,
+                                        (constants.count + kSamplePartsPerGroup - 1) / kSamplePartsPerGroup));
+        session.commands().barrier();
+      }
       constants.first = first;
       constants.count = count;
       ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*classify, {{4, &bricks_}, {5, &samples}, {6, &cases_}},
