@@ -23,9 +23,9 @@ constexpr std::uint32_t kPointsPerGroup = 64;
 // 0.07 s of gradient blends on two cores.
 constexpr std::uint64_t kSubmissionWork = 1u << 21;
 
-// Of a written kernel: points of a submission times WrittenKernels::work(), some 8 ms on two cores, where one after
+// Of a written kernel: points of a submission times WrittenKernels::work(), some 4 ms on two cores, where one after
 // another takes 0.3 ms more than both at once; and points of a workgroup (shaders/tape_points.comp).
-constexpr std::size_t kWrittenWork = 1u << 23;
+constexpr std::size_t kWrittenWork = 1u << 22;
 constexpr std::uint32_t kWrittenGroup = 64;
 
 // Of a batch that goes through an index: points of a piece at least, and a brick. What a piece reads and writes at
