@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <map>
 #include <optional>
 #include <utility>
 
+#include "engine/brick_tapes.h"
 #include "engine/mesh_constants.h"
 #include "engine/mesh_creases.h"
 #include "engine/mesh_lattice.h"
@@ -17,7 +17,6 @@
 #include "engine/session.h"
 #include "engine/status_macros.h"
 #include "engine/surface_cases.h"
-#include "engine/tape_windows.h"
 
 namespace isofield::engine {
 namespace {
@@ -100,56 +99,13 @@ class Run {
     brick_neighbours_ = brick_neighbours(list_.bricks);
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
     kinds_ = brick_kinds(scene_.tape(), list_, brick_neighbours_);
-    tapes_.emplace(device_, scene_, std::move(list_.code));
-    windows_.reserve(list_.bricks.size());
-    for (Brick& b : list_.bricks) windows_.push_back(tapes_->add(b.tape_begin, b.tape_count));
+    tapes_.emplace(device_, kernels_, scene_, list_);
     ISOFIELD_RETURN_IF_ERROR(tapes_->upload(session));
     ISOFIELD_ASSIGN_OR_RETURN(bricks_, session.upload(std::span(list_.bricks)));
     ISOFIELD_ASSIGN_OR_RETURN(neighbours_, session.upload(std::span(brick_neighbours_)));
     ISOFIELD_ASSIGN_OR_RETURN(surface_cases_, session.upload(std::span(packed)));
     ISOFIELD_ASSIGN_OR_RETURN(cases_, session.scratch(list_.bricks.size() * kCells));
     return session.run();
-  }
-
-  // What a kernel that follows tapes does at a time, of bricks whose tapes it finds in one window; bricks of a single
-  // leaf are of the kernel that knows no operator, the others of the scene's.
-  struct Group {
-    std::uint32_t window;
-    bool is_single;
-    auto operator<=>(const Group&) const = default;
-  };
-  using Jobs = std::map<Group, std::vector<Pair>>;
-  Group group_of(std::uint32_t brick) const { return {windows_[brick], list_.bricks[brick].tape_count == 1}; }
-
-  // A workgroup a brick: the jobs are bricks and their places in the slab.
-  template <class Wanted>
-  absl::Status run_bricks(Session& session, const shaders::Spirv& shader, std::uint32_t first, std::uint32_t count,
-                          Wanted is_wanted, std::vector<Buffer>& keep, gpu::Commands::Bindings own) {
-    Jobs jobs;
-    for (std::uint32_t b = first; b < first + count; ++b) {
-      if (is_wanted(b)) jobs[group_of(b)].push_back({b, b - first});
-    }
-    return run_jobs(session, shader, jobs, 1, keep, std::move(own));
-  }
-
-  // So many jobs a workgroup; binding 5 lists them in `keep`.
-  absl::Status run_jobs(Session& session, const shaders::Spirv& shader, const Jobs& groups, std::uint32_t per_workgroup,
-                        std::vector<Buffer>& keep, gpu::Commands::Bindings own) {
-    if (groups.empty()) return absl::OkStatus();
-    std::vector<Pair> jobs;
-    for (const auto& [group, members] : groups) jobs.insert(jobs.end(), members.begin(), members.end());
-    ISOFIELD_ASSIGN_OR_RETURN(Buffer job_buffer, session.upload(std::span(jobs)));
-    own.push_back({5, &keep.emplace_back(std::move(job_buffer))});
-    Constants constants = constants_;
-    for (const auto& [group, members] : groups) {
-      const KernelKind kind = group.is_single ? KernelKind::single_leaf(scene_.tape()) : KernelKind::of(scene_.tape());
-      ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shader, tapes_->kind(kind, group.window)));
-      constants.count = static_cast<std::uint32_t>(members.size());
-      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel, tapes_->bindings(group.window, own), constants,
-                                                           (constants.count + per_workgroup - 1) / per_workgroup));
-      constants.first += constants.count;
-    }
-    return absl::OkStatus();
   }
 
   // How many bricks from `first` on make a slab; at least one.
@@ -175,15 +131,15 @@ class Run {
       std::vector<Buffer> keep;
       keep.reserve(2);
       const SampleParts parts = sample_parts(brick_neighbours_, first, count);
-      Jobs jobs;
+      BrickTapes::Jobs jobs;
       for (std::uint32_t b = first; b < first + count; ++b) {
-        std::vector<Pair>& group = jobs[group_of(b)];
+        std::vector<BrickTapes::Job>& group = jobs[tapes_->group_of(b)];
         for (std::uint32_t left = parts.evaluated[b - first]; left != 0; left &= left - 1) {
           group.push_back({b, (b - first) * kSampleParts + static_cast<std::uint32_t>(std::countr_zero(left))});
         }
       }
-      ISOFIELD_RETURN_IF_ERROR(
-          run_jobs(session, shaders::kMeshSample, jobs, kSamplePartsPerGroup, keep, {{4, &bricks_}, {6, &samples}}));
+      ISOFIELD_RETURN_IF_ERROR(tapes_->run(session, shaders::kMeshSample, constants_, jobs, kSamplePartsPerGroup,
+                                           {{4, &bricks_}, {6, &samples}}, keep));
       session.commands().barrier();
       Constants constants = constants_;
       constants.count = static_cast<std::uint32_t>(parts.taken_over.size());
@@ -272,9 +228,9 @@ class Run {
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
     std::vector<Buffer> keep;
     keep.reserve(2);
-    ISOFIELD_RETURN_IF_ERROR(
-        run_bricks(session, kernels_.of(shaders::kMeshCrossings), slab.first, slab.count, is_wanted, keep,
-                   {{4, &bricks_}, {6, &slab.samples}, {8, &starts_buffer_}, {9, &quad_list_}, {10, &crossings_}}));
+    ISOFIELD_RETURN_IF_ERROR(tapes_->run_each(
+        session, kernels_.of(shaders::kMeshCrossings), constants_, slab.first, slab.count, is_wanted,
+        {{4, &bricks_}, {6, &slab.samples}, {8, &starts_buffer_}, {9, &quad_list_}, {10, &crossings_}}, keep));
     return session.run();
   }
 
@@ -321,24 +277,26 @@ class Run {
       }
       std::vector<Buffer> keep;
       keep.reserve(6);
-      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, kernels_.of(shaders::kMeshCreases), slab.first, slab.count,
-                                          has_creases, keep,
-                                          {{4, &bricks_},
-                                           {6, &cells_},
-                                           {7, &neighbours_},
-                                           {8, &starts_buffer_},
-                                           {9, &vertex_list_},
-                                           {10, &crossings_},
-                                           {11, &positions_}}));
+      ISOFIELD_RETURN_IF_ERROR(tapes_->run_each(session, kernels_.of(shaders::kMeshCreases), constants_, slab.first,
+                                                slab.count, has_creases,
+                                                {{4, &bricks_},
+                                                 {6, &cells_},
+                                                 {7, &neighbours_},
+                                                 {8, &starts_buffer_},
+                                                 {9, &vertex_list_},
+                                                 {10, &crossings_},
+                                                 {11, &positions_}},
+                                                keep));
       session.commands().barrier();
-      ISOFIELD_RETURN_IF_ERROR(run_bricks(session, kernels_.of(shaders::kMeshVertices), slab.first, slab.count,
-                                          has_vertices, keep,
-                                          {{4, &bricks_},
-                                           {6, &cells_},
-                                           {7, &surface_cases_},
-                                           {8, &starts_buffer_},
-                                           {9, &vertex_list_},
-                                           {11, &positions_}}));
+      ISOFIELD_RETURN_IF_ERROR(tapes_->run_each(session, kernels_.of(shaders::kMeshVertices), constants_, slab.first,
+                                                slab.count, has_vertices,
+                                                {{4, &bricks_},
+                                                 {6, &cells_},
+                                                 {7, &surface_cases_},
+                                                 {8, &starts_buffer_},
+                                                 {9, &vertex_list_},
+                                                 {11, &positions_}},
+                                                keep));
       if (request_.with_normals) {
         session.commands().barrier();
         ISOFIELD_RETURN_IF_ERROR(
@@ -359,8 +317,8 @@ class Run {
   template <class Wanted>
   absl::Status find_normals(Session& session, const Slab& slab, Wanted is_wanted, const Buffer& starts,
                             const Buffer& positions, const Buffer& normals, std::vector<Buffer>& keep) {
-    return run_bricks(session, kernels_.of(shaders::kMeshNormals), slab.first, slab.count, is_wanted, keep,
-                      {{4, &bricks_}, {6, &starts}, {7, &positions}, {8, &normals}});
+    return tapes_->run_each(session, kernels_.of(shaders::kMeshNormals), constants_, slab.first, slab.count, is_wanted,
+                            {{4, &bricks_}, {6, &starts}, {7, &positions}, {8, &normals}}, keep);
   }
 
   absl::Status make_triangles(MeshCells& cells) {
@@ -447,8 +405,7 @@ class Run {
 
   BrickList list_;  // its code has gone to tapes_, and the bricks' tapes begin in their windows
   const std::uint32_t owned_, placed_, crossed_;  // as of PartBricks
-  std::optional<TapeWindows> tapes_;
-  std::vector<std::uint32_t> windows_;  // of the bricks' tapes
+  std::optional<BrickTapes> tapes_;
   Constants constants_{};
   std::vector<Slab> slabs_;
   std::vector<Pair> starts_;  // first vertex and first quad of each brick, and the totals

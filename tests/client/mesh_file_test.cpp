@@ -9,10 +9,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
 
 #include "isofield/scene_file.h"
 #include "mesh_files/crease_normals.h"
+#include "support/cube_grid.h"
 #include "test_support.h"
 
 namespace isofield {
@@ -66,36 +66,16 @@ TEST(MeshFile, GlbReadsBack) {
   EXPECT_EQ(model.scenes.at(0).nodes.size(), 1u);
 }
 
-// The cube [-1, 1]^3, n squares along each edge; vertices on edges have the normal of the last of their sides, as a
-// field's gradient has.
+// Vertices on edges have the normal of one of their sides, as a field's gradient has.
 Mesh cube_mesh(int n) {
+  const test_support::CubeGrid grid = test_support::cube_grid(n);
   Mesh mesh;
-  std::map<std::array<int, 3>, std::uint32_t> numbers;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int sign : {-1, 1}) {
-      const auto vertex = [&](int i, int j) {
-        std::array<int, 3> at{};
-        at[static_cast<std::size_t>(axis)] = sign > 0 ? n : 0;
-        at[static_cast<std::size_t>((axis + 1) % 3)] = i;
-        at[static_cast<std::size_t>((axis + 2) % 3)] = j;
-        const auto [place, is_new] = numbers.try_emplace(at, mesh.vertex_count());
-        if (is_new) {
-          for (const int x : at) mesh.positions.push_back(2.0f * static_cast<float>(x) / static_cast<float>(n) - 1);
-          mesh.normals.insert(mesh.normals.end(), 3, 0.0f);
-        }
-        float* const normal = &mesh.normals[3 * std::size_t{place->second}];
-        std::fill_n(normal, 3, 0.0f);
-        normal[axis] = static_cast<float>(sign);
-        return place->second;
-      };
-      for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-          std::array<std::uint32_t, 4> q{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)};
-          if (sign < 0) std::swap(q[1], q[3]);
-          mesh.triangles.insert(mesh.triangles.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
-        }
-      }
-    }
+  mesh.triangles = grid.triangles;
+  for (const auto& place : grid.places) {
+    for (const double x : place) mesh.positions.push_back(static_cast<float>(x));
+  }
+  for (const auto& side : grid.sides) {
+    for (const double x : side) mesh.normals.push_back(static_cast<float>(x));
   }
   return mesh;
 }

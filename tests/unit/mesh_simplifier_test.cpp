@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "blobtree/vec3.h"
+#include "support/cube_grid.h"
 #include "support/mesh_check.h"
 
 namespace isofield::engine {
@@ -29,32 +30,12 @@ dvec3 at(const Mesh& mesh, std::uint32_t vertex) {
 // The surface of the cube [-1, 1]^3 in n squares along each edge; `move` says where its vertices go.
 template <class Move>
 Mesh cube(int n, const Move& move) {
-  Mesh mesh;
-  std::map<std::array<int, 3>, std::uint32_t> numbers;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int sign : {-1, 1}) {
-      const auto vertex = [&](int i, int j) {
-        std::array<int, 3> place{};
-        place[axis] = sign > 0 ? n : 0;
-        place[(axis + 1) % 3] = i;
-        place[(axis + 2) % 3] = j;
-        const auto [found, is_new] = numbers.try_emplace(place, mesh.positions.size() / 3);
-        if (is_new) {
-          const dvec3 p = move(dvec3{2.0 * place[0] / n - 1, 2.0 * place[1] / n - 1, 2.0 * place[2] / n - 1});
-          for (const double x : {p.x, p.y, p.z}) mesh.positions.push_back(static_cast<float>(x));
-          const dvec3 normal = p * (1 / length(p));
-          for (const double x : {normal.x, normal.y, normal.z}) mesh.normals.push_back(static_cast<float>(x));
-        }
-        return found->second;
-      };
-      for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-          std::array<std::uint32_t, 4> q{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)};
-          if (sign < 0) std::swap(q[1], q[3]);
-          mesh.triangles.insert(mesh.triangles.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
-        }
-      }
-    }
+  const test_support::CubeGrid grid = test_support::cube_grid(n);
+  Mesh mesh{.triangles = grid.triangles};
+  for (const auto& place : grid.places) {
+    const dvec3 p = move(dvec3{place[0], place[1], place[2]}), normal = p * (1 / length(p));
+    for (const double x : {p.x, p.y, p.z}) mesh.positions.push_back(static_cast<float>(x));
+    for (const double x : {normal.x, normal.y, normal.z}) mesh.normals.push_back(static_cast<float>(x));
   }
   return mesh;
 }
