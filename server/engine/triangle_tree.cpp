@@ -11,6 +11,8 @@ namespace {
 using blobtree::dvec3;
 
 constexpr std::size_t kLeafTriangles = 4;
+// Above the leaf where one was found last: where the next is looked for first.
+constexpr int kLevelsBeside = 8;
 constexpr float kFar = std::numeric_limits<float>::max();
 
 // The lower 21 bits of x, two zeros after each.
@@ -78,27 +80,35 @@ TriangleTree::TriangleTree(std::span<const float> positions, std::span<const Tri
 }
 
 std::optional<std::uint32_t> TriangleTree::find(const dvec3& p, const dvec3& facing, double cosine, double distance) {
-  const double limit = distance * distance;
-  const Wanted wanted{p, facing, cosine * cosine * dot(facing, facing), limit};
+  const Wanted wanted{p, facing, cosine * cosine * dot(facing, facing), distance * distance};
   if (const auto found = find_in_leaf(last_leaf_, wanted)) return found;
-  const std::array<double, 3> at{p.x, p.y, p.z};
-  const auto is_beside = [&](const Box& box) {
-    double sum = 0;
-    for (int a = 0; a < 3; ++a) {
-      const double off = std::max({box.low[a] - at[a], at[a] - box.high[a], 0.0});
-      sum += off * off;
-    }
-    return sum <= limit;
+  // Points come one beside another: mostly the triangle is near the last.
+  const std::size_t beside = (leaves_ + last_leaf_) >> kLevelsBeside;
+  if (beside > 1) {
+    if (const auto found = find_below(beside, wanted)) return found;
+  }
+  return find_below(1, wanted);
+}
+
+std::optional<std::uint32_t> TriangleTree::find_below(std::size_t top, const Wanted& wanted) {
+  const auto distance2 = [&](const Box& box) {
+    const auto off = [](float low, float high, double x) { return std::max(std::max(low - x, x - high), 0.0); };
+    const dvec3 d{off(box.low[0], box.high[0], wanted.p.x), off(box.low[1], box.high[1], wanted.p.y),
+                  off(box.low[2], box.high[2], wanted.p.z)};
+    return dot(d, d);
   };
+  // The nearer of two children first: it is likely to end the search.
   std::array<std::size_t, 64> stack;
   std::size_t depth = 0;
-  stack[depth++] = 1;
+  if (distance2(boxes_[top]) <= wanted.distance2) stack[depth++] = top;
   while (depth > 0) {
     const std::size_t node = stack[--depth];
-    if (!is_beside(boxes_[node])) continue;
     if (node < leaves_) {
-      stack[depth++] = 2 * node + 1;
-      stack[depth++] = 2 * node;
+      std::size_t near = 2 * node, far = near + 1;
+      double to_near = distance2(boxes_[near]), to_far = distance2(boxes_[far]);
+      if (to_far < to_near) std::swap(near, far), std::swap(to_near, to_far);
+      if (to_far <= wanted.distance2) stack[depth++] = far;
+      if (to_near <= wanted.distance2) stack[depth++] = near;
     } else if (const auto found = find_in_leaf(node - leaves_, wanted)) {
       last_leaf_ = node - leaves_;
       return found;

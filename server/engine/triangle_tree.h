@@ -30,6 +30,7 @@ class TriangleTree {
     blobtree::dvec3 p, facing;
     double cosine2, distance2;
   };
+  std::optional<std::uint32_t> find_below(std::size_t node, const Wanted& wanted);
   std::optional<std::uint32_t> find_in_leaf(std::size_t leaf, const Wanted& wanted) const;
 
   std::span<const float> positions_;
