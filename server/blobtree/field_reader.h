@@ -33,14 +33,18 @@ class FieldReader {
   }
   // `component` is appended to the field's name: ".x".
   double positive(absl::string_view field, double value, absl::string_view component = "") {
-    if (value >= kMinLength && value <= kMaxCoordinate) return value;
-    return number(absl::StrCat(field, component), value, kMinLength, kMaxCoordinate,
-                  absl::StrCat("a length > 0, within [", kMinLength, ", ", kMaxCoordinate, "]"));
+    if (!(value >= kMinLength && value <= kMaxCoordinate)) {
+      refuse(absl::StrCat(field, component), absl::StrCat(value),
+             absl::StrCat("a length > 0, within [", kMinLength, ", ", kMaxCoordinate, "]"));
+    }
+    return value;
   }
   double coordinate(absl::string_view field, double value, absl::string_view component = "") {
-    if (value >= -kMaxCoordinate && value <= kMaxCoordinate) return value;
-    return number(absl::StrCat(field, component), value, -kMaxCoordinate, kMaxCoordinate,
-                  absl::StrCat("a finite number of magnitude at most ", kMaxCoordinate));
+    if (!(value >= -kMaxCoordinate && value <= kMaxCoordinate)) {
+      refuse(absl::StrCat(field, component), absl::StrCat(value),
+             absl::StrCat("a finite number of magnitude at most ", kMaxCoordinate));
+    }
+    return value;
   }
   dvec3 point(absl::string_view field, const Numbers& numbers, const dvec3& otherwise = {}) {
     return has_size(field, numbers, 3, true) ? stated_point(field, numbers) : otherwise;

@@ -23,7 +23,7 @@ constexpr std::uint32_t kPointsPerGroup = 64;
 // 0.07 s of gradient blends on two cores.
 constexpr std::uint64_t kSubmissionWork = 1u << 21;
 
-// Of a written kernel: points of a submission times WrittenKernels::work(), some 4 ms on two cores, where one after
+// Of a written kernel: points of a submission times WrittenKernels::work_of(), some 4 ms on two cores, where one after
 // another takes 0.3 ms more than both at once; and points of a workgroup (shaders/tape_points.comp).
 constexpr std::size_t kWrittenWork = 1u << 22;
 constexpr std::uint32_t kWrittenGroup = 64;
@@ -203,7 +203,7 @@ absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const
                                               std::span<const float> xyz, Quantity quantity, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3;
-  const std::size_t most = std::max<std::size_t>(kWrittenWork / WrittenKernels::work(scene.tape()), kWrittenGroup);
+  const std::size_t most = std::max<std::size_t>(kWrittenWork / WrittenKernels::work_of(scene.tape()), kWrittenGroup);
   std::optional<Piece> running;
   for (std::size_t first = 0; first < count; first += most) {
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");

@@ -6,7 +6,8 @@ namespace isofield::engine {
 namespace {
 
 // Places in brick_neighbours() of the bricks above.
-constexpr std::size_t kX = 1, kY = 3, kZ = 5, kYZ = 9, kXZ = 10, kXY = 11;
+constexpr std::size_t kX = kNeighboursAbove[0], kY = kNeighboursAbove[1], kZ = kNeighboursAbove[2],
+                      kYZ = kNeighboursAbove[3], kXZ = kNeighboursAbove[4], kXY = kNeighboursAbove[5];
 constexpr std::uint32_t kNone = ~0u;
 
 }  // namespace

@@ -41,7 +41,7 @@ std::size_t most_instructions(const blobtree::Tape& tape) {
 
 }  // namespace
 
-std::size_t WrittenKernels::work(const blobtree::Tape& tape) {
+std::size_t WrittenKernels::work_of(const blobtree::Tape& tape) {
   return tape.code.size() * (all_light(tape) ? 1 : kHeavyWork);
 }
 

@@ -43,7 +43,7 @@ class WrittenKernels {
   static constexpr std::size_t kMostInstructions = 64, kMostHeavyInstructions = 12;
 
   // What a point takes of a kernel of such a tape, in instructions of sums and the like.
-  static std::size_t work(const blobtree::Tape& tape);
+  static std::size_t work_of(const blobtree::Tape& tape);
 
   // The kernel of shaders/tape_points.comp for the scene's whole tape, or null where there is none, not yet, or never.
   // Never waits for one. `points`: how many will be evaluated now.
