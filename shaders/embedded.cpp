@@ -31,6 +31,8 @@ namespace {
 #include "sampled_volume.inc"
 #include "smooth_volume_high.inc"
 #include "smooth_volume_low.inc"
+#include "sorted_points_gradient.inc"
+#include "sorted_points_value.inc"
 #include "table_volume_high.inc"
 #include "table_volume_low.inc"
 
@@ -38,6 +40,8 @@ namespace {
 
 const Spirv kPointsValue{points_value};
 const Spirv kPointsGradient{points_gradient};
+const Spirv kSortedPointsValue{sorted_points_value};
+const Spirv kSortedPointsGradient{sorted_points_gradient};
 const Spirv kGridValue{grid_value};
 const Spirv kGridGradient{grid_gradient};
 const Spirv kMeshSample{mesh_sample};

@@ -8,7 +8,7 @@ namespace isofield::shaders {
 
 using Spirv = std::span<const std::uint32_t>;
 
-extern const Spirv kPointsValue, kPointsGradient;
+extern const Spirv kPointsValue, kPointsGradient, kSortedPointsValue, kSortedPointsGradient;
 extern const Spirv kGridValue, kGridGradient;
 extern const Spirv kMeshSample, kMeshShare, kMeshClassify, kMeshConnect, kMeshList, kMeshQuads, kMeshTriangles;
 // A workgroup takes what a brick has in rounds of as many as it has invocations: 32, or 8. On lavapipe the subgroups of

@@ -2,12 +2,17 @@
 
 #include <utility>
 
+#include "engine/dealing.h"
 #include "engine/status_macros.h"
 
 namespace isofield::engine {
 
 BrickTapes::BrickTapes(gpu::Device& device, KernelCache& kernels, const ResidentScene& scene, blobtree::BrickList& list)
-    : kernels_(kernels), scene_(scene), bricks_(list.bricks), windows_(device, scene, std::move(list.code)) {
+    : dispatch_runs_(device.description().dispatch_runs),
+      kernels_(kernels),
+      scene_(scene),
+      bricks_(list.bricks),
+      windows_(device, scene, std::move(list.code)) {
   window_of_.reserve(list.bricks.size());
   for (blobtree::Brick& b : list.bricks) window_of_.push_back(windows_.add(b.tape_begin, b.tape_count));
 }
@@ -16,7 +21,11 @@ absl::Status BrickTapes::run(Session& session, const shaders::Spirv& shader, Mes
                              std::uint32_t per_workgroup, gpu::Commands::Bindings own, std::vector<gpu::Buffer>& keep) {
   if (jobs.empty()) return absl::OkStatus();
   std::vector<Job> all;
-  for (const auto& [group, members] : jobs) all.insert(all.end(), members.begin(), members.end());
+  for (const auto& [group, members] : jobs) {
+    const std::size_t begin = all.size();
+    all.insert(all.end(), members.begin(), members.end());
+    deal(all, begin, all.size(), dispatch_runs_);
+  }
   ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer buffer, session.upload(std::span(all)));
   own.push_back({5, &keep.emplace_back(std::move(buffer))});
   constants.first = 0;

@@ -54,6 +54,7 @@ class BrickTapes {
   }
 
  private:
+  std::uint32_t dispatch_runs_;
   KernelCache& kernels_;
   const ResidentScene& scene_;
   const std::vector<blobtree::Brick>& bricks_;

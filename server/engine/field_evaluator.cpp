@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <optional>
 #include <utility>
 
 #include "blobtree/point_bins.h"
+#include "engine/dealing.h"
 #include "engine/session.h"
 #include "engine/status_macros.h"
 #include "engine/tape_windows.h"
@@ -15,7 +17,8 @@ namespace {
 
 using blobtree::Brick;
 
-// What a subgroup of shaders/points.comp takes, and the invocations of a workgroup.
+// What a subgroup of shaders/sorted_points.comp takes, and the invocations of a workgroup there, in
+// shaders/points.comp, and in shaders/tape_points.comp.
 using PointJob = std::array<std::uint32_t, 4>;
 constexpr std::uint32_t kPointsPerGroup = 64;
 
@@ -24,38 +27,61 @@ constexpr std::uint32_t kPointsPerGroup = 64;
 constexpr std::uint64_t kSubmissionWork = 1u << 21;
 
 // Of a written kernel: points of a submission times WrittenKernels::work_of(), some 4 ms on two cores, where one after
-// another takes 0.3 ms more than both at once; and points of a workgroup (shaders/tape_points.comp).
+// another takes 0.3 ms more than both at once.
 constexpr std::size_t kWrittenWork = 1u << 22;
-constexpr std::uint32_t kWrittenGroup = 64;
 
 // Of a batch that goes through an index: points of a piece at least, and a brick. What a piece reads and writes at
 // random stays in the processor's caches, and the next one is sorted while the device is at it.
 constexpr std::size_t kIndexedPoints = 1u << 17, kIndexedPointsPerBrick = 32;
 
-// Calls dispatch(first, count, window) for runs of workgroups whose tapes lie in one window, `windows` says in which;
-// after every kSubmissionWork the work so far is waited for.
-template <class Work, class Dispatch>
-absl::Status submit_in_pieces(Session& session, std::span<const std::uint32_t> windows,
-                              const FieldEvaluator::Cancelled& cancelled, const Work& work_of,
-                              const Dispatch& dispatch) {
+// Jobs of one dispatch.
+struct JobRun {
+  std::size_t first;
+  std::uint32_t count, window;
+  bool waits;  // for the work so far
+};
+
+// `windows`: of each job's tape. After every kSubmissionWork the work so far is waited for.
+template <class Work>
+std::vector<JobRun> runs_of(std::span<const std::uint32_t> windows, const Work& work_of) {
+  std::vector<JobRun> runs;
   std::uint64_t work = 0;
   for (std::size_t first = 0, end = 0; first < windows.size(); first = end) {
-    if (work >= kSubmissionWork) {
-      ISOFIELD_RETURN_IF_ERROR(session.flush());
-      work = 0;
-    }
-    if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
+    const bool waits = work >= kSubmissionWork;
+    if (waits) work = 0;
     while (end < windows.size() && windows[end] == windows[first] && end - first < gpu::kMaxGroups &&
            (end == first || work < kSubmissionWork)) {
       work += work_of(end++);
     }
-    ISOFIELD_RETURN_IF_ERROR(dispatch(first, static_cast<std::uint32_t>(end - first), windows[first]));
+    runs.push_back({first, static_cast<std::uint32_t>(end - first), windows[first], waits});
+  }
+  return runs;
+}
+
+template <class Dispatch>
+absl::Status record_runs(Session& session, std::span<const JobRun> runs, const FieldEvaluator::Cancelled& cancelled,
+                         const Dispatch& dispatch) {
+  for (const JobRun& run : runs) {
+    if (run.waits) ISOFIELD_RETURN_IF_ERROR(session.flush());
+    if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
+    ISOFIELD_RETURN_IF_ERROR(dispatch(run));
   }
   return absl::OkStatus();
 }
 
-const shaders::Spirv& points_shader(Quantity quantity) {
-  return quantity == Quantity::kValue ? shaders::kPointsValue : shaders::kPointsGradient;
+template <class Job>
+void deal_runs(std::vector<Job>& jobs, std::span<const JobRun> runs, const gpu::Device& device) {
+  for (const JobRun& run : runs) deal(jobs, run.first, run.first + run.count, device.description().dispatch_runs);
+}
+
+// The whole tape's at all points, or pruned ones' at sorted points.
+bool is_sorted(const ResidentScene& scene) {
+  return scene.tape().code.size() > blobtree::kUnsortedInstructions;
+}
+
+const shaders::Spirv& points_shader(Quantity quantity, bool is_sorted) {
+  if (quantity == Quantity::kValue) return is_sorted ? shaders::kSortedPointsValue : shaders::kPointsValue;
+  return is_sorted ? shaders::kSortedPointsGradient : shaders::kPointsGradient;
 }
 
 struct GridConstants {
@@ -70,7 +96,9 @@ struct GridConstants {
 }  // namespace
 
 absl::Status FieldEvaluator::prepare(const ResidentScene& scene, Quantity quantity) {
-  return kernels_.get(points_shader(quantity), TapeWindows::windowed(device_, KernelKind::of(scene.tape()))).status();
+  return kernels_
+      .get(points_shader(quantity, is_sorted(scene)), TapeWindows::windowed(device_, KernelKind::of(scene.tape())))
+      .status();
 }
 
 absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,
@@ -80,6 +108,7 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
   const gpu::Pipeline* const written =
       written_ ? written_->find(scene, quantity == Quantity::kValueAndGradient, count) : nullptr;
   if (written) return evaluate_written(*written, scene, xyz, quantity, out, cancelled, std::move(submission));
+  if (!is_sorted(scene)) return evaluate_unsorted(scene, xyz, quantity, out, cancelled, std::move(submission));
   ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, cancelled));
   if (index) return evaluate_indexed(*index, scene, xyz, quantity, out, cancelled, std::move(submission));
   blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
@@ -92,7 +121,7 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
   ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
   piece.sorted = std::move(bins.points);
   ISOFIELD_RETURN_IF_ERROR(tapes.upload(piece.session));
-  ISOFIELD_RETURN_IF_ERROR(record(piece, scene, tapes, groups, xyz, quantity, out, cancelled));
+  ISOFIELD_RETURN_IF_ERROR(record(piece, scene, tapes, groups, quantity, out, cancelled));
   return piece.session.run();
 }
 
@@ -121,7 +150,7 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
     if (work >= kSubmissionWork) ISOFIELD_RETURN_IF_ERROR(finish(running));
     ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
     piece.sorted = std::move(sorted.points);
-    ISOFIELD_RETURN_IF_ERROR(record(piece, scene, index.windows(), groups, part_xyz, quantity,
+    ISOFIELD_RETURN_IF_ERROR(record(piece, scene, index.windows(), groups, quantity,
                                     out.subspan(first * components(quantity), part * components(quantity)), cancelled));
     ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(piece)));
   }
@@ -152,8 +181,9 @@ absl::StatusOr<FieldEvaluator::Piece> FieldEvaluator::begin_piece(Submission& su
 }
 
 absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes,
-                                    std::span<const Group> groups, std::span<const float> xyz, Quantity quantity,
-                                    std::span<float> out, const Cancelled& cancelled) {
+                                    std::span<const Group> groups, Quantity quantity, std::span<float> out,
+                                    const Cancelled& cancelled) {
+  const std::size_t count = out.size() / components(quantity);
   const std::uint32_t points_per_job = this->points_per_job();
   const std::uint32_t jobs_per_group = kPointsPerGroup / points_per_job;
   std::vector<PointJob> jobs;
@@ -163,7 +193,7 @@ absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, co
     std::fill(out.begin(), out.end(), 0.0f);
     return absl::OkStatus();
   }
-  jobs.reserve(xyz.size() / 3 / points_per_job + groups.size());
+  jobs.reserve(count / points_per_job + groups.size());
   windows.reserve(jobs.capacity());
   std::uint32_t window = with_tape->window;  // where the field is 0, any will do
   for (const Group& g : groups) {
@@ -174,36 +204,35 @@ absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, co
       windows.push_back(window);
     }
   }
-  const bool is_sorted = piece.sorted != nullptr;
-  const auto* const sorted = reinterpret_cast<const float*>(piece.sorted.get());
+  const std::vector<JobRun> runs =
+      runs_of(windows, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * points_per_job; });
+  deal_runs(jobs, runs, device_);
+  const std::span sorted(reinterpret_cast<const float*>(piece.sorted.get()), 4 * count);
   Session& session = piece.session;
   ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer job_buffer, session.upload(std::span(jobs)));
-  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points,
-                            session.input(is_sorted ? std::span(sorted, 4 * (xyz.size() / 3)) : xyz));
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.input(sorted));
   ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(out));
   const KernelKind kind = KernelKind::of(scene.tape());
-  ISOFIELD_RETURN_IF_ERROR(submit_in_pieces(
-      session, windows, cancelled, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * points_per_job; },
-      [&](std::size_t first, std::uint32_t count, std::uint32_t window) -> absl::Status {
-        const std::array<std::uint32_t, 4> constants{static_cast<std::uint32_t>(first),
-                                                     static_cast<std::uint32_t>(first + count - 1), is_sorted ? 1u : 0u,
-                                                     points_per_job};
-        ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
-                                  kernels_.get(points_shader(quantity), tapes.kind(kind, window)));
-        return session.commands().dispatch(
-            *kernel, tapes.bindings(window, {{4, &job_buffer}, {5, &points}, {6, &points}, {7, &results}}), constants,
-            (count + jobs_per_group - 1) / jobs_per_group);
-      }));
+  ISOFIELD_RETURN_IF_ERROR(record_runs(session, runs, cancelled, [&](const JobRun& run) -> absl::Status {
+    const std::array constants{static_cast<std::uint32_t>(run.first),
+                               static_cast<std::uint32_t>(run.first + run.count - 1),
+                               static_cast<std::uint32_t>(std::countr_zero(points_per_job))};
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
+                              kernels_.get(points_shader(quantity, true), tapes.kind(kind, run.window)));
+    return session.commands().dispatch(*kernel,
+                                       tapes.bindings(run.window, {{4, &job_buffer}, {5, &points}, {7, &results}}),
+                                       constants, (run.count + jobs_per_group - 1) / jobs_per_group);
+  }));
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
   for (gpu::Buffer* b : {&job_buffer, &points, &results}) piece.buffers.push_back(std::move(*b));
   return absl::OkStatus();
 }
 
-absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const ResidentScene& scene,
-                                              std::span<const float> xyz, Quantity quantity, std::span<float> out,
-                                              const Cancelled& cancelled, Submission submission) {
+template <class Dispatch>
+absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const float> xyz, Quantity quantity,
+                                               std::span<float> out, const Cancelled& cancelled, Submission submission,
+                                               const Dispatch& dispatch) {
   const std::size_t count = xyz.size() / 3;
-  const std::size_t most = std::max<std::size_t>(kWrittenWork / WrittenKernels::work_of(scene.tape()), kWrittenGroup);
   std::optional<Piece> running;
   for (std::size_t first = 0; first < count; first += most) {
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
@@ -214,13 +243,45 @@ absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const
     ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.input(xyz.subspan(3 * first, 3 * part)));
     ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(part_out));
     const auto last = static_cast<std::uint32_t>(part - 1);
-    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel, scene.bindings(points, {{6, &points}, {7, &results}}),
-                                                         last, last / kWrittenGroup + 1));
+    ISOFIELD_RETURN_IF_ERROR(
+        dispatch(session, gpu::Commands::Bindings{{6, &points}, {7, &results}}, last, last / kPointsPerGroup + 1));
     ISOFIELD_RETURN_IF_ERROR(session.download(results, part_out));
     for (gpu::Buffer* b : {&points, &results}) piece.buffers.push_back(std::move(*b));
     ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(piece)));
   }
   return finish(running);
+}
+
+absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const ResidentScene& scene,
+                                              std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                                              const Cancelled& cancelled, Submission submission) {
+  const std::size_t most = std::max<std::size_t>(kWrittenWork / WrittenKernels::work_of(scene.tape()), kPointsPerGroup);
+  return evaluate_in_order(
+      most, xyz, quantity, out, cancelled, std::move(submission),
+      [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last, std::uint32_t groups) {
+        // Nothing is read where a tape would be.
+        return session.commands().dispatch(kernel, scene.bindings(*own.front().buffer, own), last, groups);
+      });
+}
+
+absl::Status FieldEvaluator::evaluate_unsorted(const ResidentScene& scene, std::span<const float> xyz,
+                                               Quantity quantity, std::span<float> out, const Cancelled& cancelled,
+                                               Submission submission) {
+  TapeWindows tapes(device_, scene, scene.tape().code);
+  std::uint32_t begin = 0;
+  const auto length = static_cast<std::uint32_t>(scene.tape().code.size());
+  const std::uint32_t window = tapes.add(begin, length);
+  ISOFIELD_ASSIGN_OR_RETURN(
+      const gpu::Pipeline* kernel,
+      kernels_.get(points_shader(quantity, false), tapes.kind(KernelKind::of(scene.tape()), window)));
+  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+  ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
+  ISOFIELD_RETURN_IF_ERROR(session.run());
+  return evaluate_in_order(
+      kSubmissionWork / length, xyz, quantity, out, cancelled, std::move(submission),
+      [&](Session& piece, const gpu::Commands::Bindings& own, std::uint32_t last, std::uint32_t groups) {
+        return piece.commands().dispatch(*kernel, tapes.bindings(window, own), std::array{last, begin, length}, groups);
+      });
 }
 
 absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,
@@ -245,6 +306,9 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
   std::vector<std::uint32_t> windows;
   for (Brick& b : wanted) windows.push_back(tapes.add(b.tape_begin, b.tape_count));
   ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
+  constexpr std::uint64_t kPoints = blobtree::kCellsPerBrick;
+  const std::vector<JobRun> runs = runs_of(windows, [&](std::size_t i) { return wanted[i].tape_count * kPoints; });
+  deal_runs(wanted, runs, device_);
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer brick_buffer, session.upload(std::span(wanted)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.scratch(out.size_bytes()));
   session.commands().fill_zero(results);
@@ -257,18 +321,13 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
                           0,
                           first_layer,
                           layers};
-  constexpr std::uint64_t kPoints = blobtree::kCellsPerBrick;
-  ISOFIELD_RETURN_IF_ERROR(submit_in_pieces(
-      session, windows, cancelled, [&](std::size_t i) { return wanted[i].tape_count * kPoints; },
-      [&](std::size_t first, std::uint32_t count, std::uint32_t window) -> absl::Status {
-        constants.first_brick = static_cast<std::uint32_t>(first);
-        ISOFIELD_ASSIGN_OR_RETURN(
-            const gpu::Pipeline* kernel,
-            kernels_.get(quantity == Quantity::kValue ? shaders::kGridValue : shaders::kGridGradient,
-                         tapes.kind(kind, window)));
-        return session.commands().dispatch(*kernel, tapes.bindings(window, {{4, &brick_buffer}, {7, &results}}),
-                                           constants, count);
-      }));
+  const shaders::Spirv& shader = quantity == Quantity::kValue ? shaders::kGridValue : shaders::kGridGradient;
+  ISOFIELD_RETURN_IF_ERROR(record_runs(session, runs, cancelled, [&](const JobRun& run) -> absl::Status {
+    constants.first_brick = static_cast<std::uint32_t>(run.first);
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shader, tapes.kind(kind, run.window)));
+    return session.commands().dispatch(*kernel, tapes.bindings(run.window, {{4, &brick_buffer}, {7, &results}}),
+                                       constants, run.count);
+  }));
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
   return session.run();
 }

@@ -57,6 +57,15 @@ class FieldEvaluator {
                                 Quantity quantity, std::span<float> out, const Cancelled& cancelled,
                                 Submission submission);
 
+  absl::Status evaluate_unsorted(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,
+                                 std::span<float> out, const Cancelled& cancelled, Submission submission);
+
+  // Of points as the batch has them, so many at most a submission: dispatch(session, the bindings of points and
+  // results, the last point, workgroups).
+  template <class Dispatch>
+  absl::Status evaluate_in_order(std::size_t most, std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                                 const Cancelled& cancelled, Submission submission, const Dispatch& dispatch);
+
   absl::Status evaluate_indexed(const PointIndex& index, const ResidentScene& scene, std::span<const float> xyz,
                                 Quantity quantity, std::span<float> out, const Cancelled& cancelled,
                                 Submission submission);
@@ -75,9 +84,9 @@ class FieldEvaluator {
   // Submits when `running`, if any, is done, and takes its place.
   static absl::Status submit_after(std::optional<Piece>& running, Piece next);
   static absl::Status finish(std::optional<Piece>& running);
-  std::uint32_t points_per_job() const { return device_.description().subgroup_size; }  // of shaders/points.comp
+  std::uint32_t points_per_job() const { return device_.description().subgroup_size; }  // of shaders/sorted_points.comp
   absl::Status record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes, std::span<const Group> groups,
-                      std::span<const float> xyz, Quantity quantity, std::span<float> out, const Cancelled& cancelled);
+                      Quantity quantity, std::span<float> out, const Cancelled& cancelled);
 
   gpu::Device& device_;
   KernelCache& kernels_;

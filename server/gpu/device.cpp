@@ -1,6 +1,8 @@
 #include "gpu/device.h"
 
+#include <algorithm>
 #include <cstring>
+#include <thread>
 
 #include "gpu/buffer_impl.h"
 #include "gpu/commands_impl.h"
@@ -139,6 +141,8 @@ absl::Status pick_physical(const DeviceOptions& options, Device::Impl& impl) {
       absl::StrCat(VK_API_VERSION_MAJOR(properties.apiVersion), ".", VK_API_VERSION_MINOR(properties.apiVersion), ".",
                    VK_API_VERSION_PATCH(properties.apiVersion));
   d.type = name_of(candidates[*choice].type);
+  // Mesa's lavapipe: a thread a processor, 16 at most (lp_cs_tpool.c).
+  if (d.type == "cpu") d.dispatch_runs = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
   d.subgroup_size = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
   d.max_buffer_bytes = properties.limits.maxStorageBufferRange;
   return absl::OkStatus();

@@ -28,6 +28,9 @@ struct DeviceDescription {
   std::string name, driver, vulkan_version;
   std::string type;  // "cpu", "integrated", "discrete", "virtual", "other"
   std::uint32_t subgroup_size = 0;
+  // Runs of equal length into which the driver cuts a dispatch's workgroups, one a thread of its own; 1: it hands them
+  // out as it goes.
+  std::uint32_t dispatch_runs = 1;
   std::uint64_t max_buffer_bytes = 0;  // of one binding
 };
 
