@@ -15,8 +15,11 @@ namespace {
 #include "mesh_normals_narrow.inc"
 #include "mesh_normals_wide.inc"
 #include "mesh_place_narrow.inc"
+#include "mesh_place_smooth_narrow.inc"
+#include "mesh_place_smooth_wide.inc"
 #include "mesh_place_wide.inc"
 #include "mesh_quads.inc"
+#include "mesh_quads_smooth.inc"
 #include "mesh_sample.inc"
 #include "mesh_share.inc"
 #include "mesh_triangles.inc"
@@ -51,9 +54,11 @@ const Spirv kMeshConnect{mesh_connect};
 const Spirv kMeshList{mesh_list};
 const InRounds kMeshCrossings{mesh_crossings_wide, mesh_crossings_narrow};
 const InRounds kMeshPlace{mesh_place_wide, mesh_place_narrow};
+const InRounds kMeshPlaceSmooth{mesh_place_smooth_wide, mesh_place_smooth_narrow};
 const InRounds kMeshCreases{mesh_creases_wide, mesh_creases_narrow};
 const InRounds kMeshVertices{mesh_vertices_wide, mesh_vertices_narrow};
 const Spirv kMeshQuads{mesh_quads};
+const Spirv kMeshQuadsSmooth{mesh_quads_smooth};
 const InRounds kMeshNormals{mesh_normals_wide, mesh_normals_narrow};
 const Spirv kMeshTriangles{mesh_triangles};
 const Spirv kOperatorEval{operator_eval};

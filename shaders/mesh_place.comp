@@ -1,6 +1,7 @@
 // Mesher, pass 7: where every vertex starts, one workgroup a brick: at the mean of its patch's crossings or, in bricks
 // that may have creases, where the tangent planes there meet (dual contouring: Ju, Losasso, Schaefer, Warren 2002); and
-// finds the creases.
+// finds the creases. SMOOTH: of the other bricks, without what is there for creases: on lavapipe a branch that no
+// invocation takes costs as much as one that all take.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -13,6 +14,13 @@ layout(std430, binding = 9) buffer Vertices { uint vertex_list[]; };  // mesh_co
 layout(std430, binding = 11) writeonly buffer Positions { float positions[]; };
 layout(std430, binding = 12) buffer Kinds { uint kinds[]; };
 layout(std430, binding = 13) readonly buffer Samples { float samples[]; };  // of the slab that starts at brick `first`
+layout(std430, binding = 14) readonly buffer Placed { uint placed[]; };      // bricks, one a workgroup
+
+#ifdef SMOOTH
+const bool MAY_HAVE_CREASES = false;
+#else
+const bool MAY_HAVE_CREASES = true;
+#endif
 
 // A patch is taken to hold a crease where the mean of the squared sines between its normals and their mean is more:
 // creases that turn by about 25 degrees, and surfaces with a radius of up to 2.5 cells.
@@ -24,9 +32,8 @@ const float DAMPING = 2e-3;
 const float ACROSS = 0.1;
 
 void main() {
-  uint b = first + gl_WorkGroupID.x;
+  uint b = placed[gl_WorkGroupID.x];
   Brick at = brick(b);
-  bool may_crease = (kinds[b] & MAY_CREASE) != 0u;
   uint end = starts[b + 1u].x;
   for (uint v = starts[b].x + gl_LocalInvocationID.x; v < end; v += gl_WorkGroupSize.x) {
     uint vertex = vertex_list[v];
@@ -44,11 +51,11 @@ void main() {
       uint edge = uint(findLSB(left));
       uvec3 low = edge_offset(edge), high = low + axis_vector(edge >> 2u);
       Crossing c = Crossing(vec3(0.0), vec3(0.0));
-      if (may_crease) {
+      if (MAY_HAVE_CREASES) {
         c = crossing_of(b, cell, edge);
       } else {
-        float f0 = samples[gl_WorkGroupID.x * CORNERS_PER_BRICK + sample_place(cell + low)];
-        float f1 = samples[gl_WorkGroupID.x * CORNERS_PER_BRICK + sample_place(cell + high)];
+        float f0 = samples[(b - first) * CORNERS_PER_BRICK + sample_place(cell + low)];
+        float f1 = samples[(b - first) * CORNERS_PER_BRICK + sample_place(cell + high)];
         c.at = mix(vec3(low), vec3(high), clamp((iso - f0) / (f1 - f0), 0.0, 1.0));
       }
       sum += c.at;
@@ -59,11 +66,11 @@ void main() {
     float count = float(bitCount(edges));
     vec3 mean = sum / count;
     planes.offset -= times(planes, mean);
-    vec3 move = on_cap || is_crowded || !may_crease ? vec3(0.0) : meeting_point(planes, mean, DAMPING);
+    vec3 move = on_cap || is_crowded || !MAY_HAVE_CREASES ? vec3(0.0) : meeting_point(planes, mean, DAMPING);
     vec3 x = clamp(mean + move, MARGIN, 1.0 - MARGIN);
 
     float spread = 1.0 - dot(facing, times(planes, facing)) / (count * max(dot(facing, facing), 1e-12));
-    bool on_crease = may_crease && spread > CREASE_SPREAD && !on_cap && !is_crowded;
+    bool on_crease = MAY_HAVE_CREASES && spread > CREASE_SPREAD && !on_cap && !is_crowded;
     if (on_crease) {
       // The crossing that faces furthest from the mean, that which faces furthest from it, and that which faces furthest
       // from the plane of the two.

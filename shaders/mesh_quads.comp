@@ -4,6 +4,8 @@
 // triangles meet but where they share vertices: envelopes of different edges have no inner point in common where the
 // vertices lie in their cells (Ju and Udeshi, "Intersection-free contouring on an octree grid", 2006). A fan around the
 // crossing of the edge always lies within; a pair of triangles is taken where it does.
+//
+// SMOOTH: where no brick may have creases.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -14,6 +16,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 11) readonly buffer Positions { float positions[]; };
 layout(std430, binding = 12) writeonly buffer Cuts { uint cuts[]; };
 layout(std430, binding = 13) readonly buffer Kinds { uint kinds[]; };
+layout(std430, binding = 14) writeonly buffer Corners { uvec4 corners[]; };  // Quad::corners
 
 // How far within the envelope, as a part of it.
 const float SLACK = 1e-3;
@@ -51,13 +54,17 @@ float cost(vec3 a, vec3 b, vec3 c, vec3 d, float crossing, bool knows_crossing) 
 // Whether a vertex of the quad lies in a brick that may have creases. What bricks without vertices may have is of no
 // importance to it.
 bool may_crease_around(Quad q) {
-  if ((kinds[q.brick] & KNOWS_CROSSINGS) == 0u) return false;
+#ifdef SMOOTH
+  return false;
+#else
+  if ((kinds[q.edge.brick] & KNOWS_CROSSINGS) == 0u) return false;
   bool may_crease = false;
   for (uint i = 0u; i < 4u; ++i) {
-    CellRef c = cell_ref(q.brick, quad_cell(q.at, q.axis, i & 1u, i >> 1u));
+    CellRef c = cell_ref(q.edge.brick, quad_cell(q.edge.at, q.edge.axis, i & 1u, i >> 1u));
     may_crease = may_crease || (c.brick != NO_BRICK && (kinds[c.brick] & MAY_CREASE) != 0u);
   }
   return may_crease;
+#endif
 }
 
 void main() {
@@ -65,11 +72,12 @@ void main() {
   if (n >= count) return;
   uint q = first + n;
   Quad at = quad(q);
-  vec3 edge = corner_position(brick(at.brick).at * BRICK_CELLS + at.at);
-  vec3 p0 = place(at.vertices.x, edge, at.axis), p1 = place(at.vertices.y, edge, at.axis),
-       p2 = place(at.vertices.z, edge, at.axis), p3 = place(at.vertices.w, edge, at.axis);
-  float crossing = crossing_place(q);
+  corners[q] = at.corners;
+  vec3 edge = corner_position(brick(at.edge.brick).at * BRICK_CELLS + at.edge.at);
+  vec3 p0 = place(at.vertices.x, edge, at.edge.axis), p1 = place(at.vertices.y, edge, at.edge.axis),
+       p2 = place(at.vertices.z, edge, at.edge.axis), p3 = place(at.vertices.w, edge, at.edge.axis);
   bool knows_crossing = may_crease_around(at);
+  float crossing = knows_crossing ? crossing_place(q) : 0.0;
   float cost02 = cost(p0, p1, p2, p3, crossing, knows_crossing);
   float cost13 = cost(p1, p2, p3, p0, crossing, knows_crossing);
   cuts[q] = min(cost02, cost13) >= REFUSED ? CUT_FAN : cost13 < cost02 ? CUT_13 : CUT_02;

@@ -10,6 +10,7 @@ layout(std430, binding = 12) readonly buffer Cuts { uint cuts[]; };  // cut | fa
 layout(std430, binding = 13) writeonly buffer Triangles { uint triangles[]; };
 layout(std430, binding = 15) readonly buffer FanStarts { uvec2 fan_starts[]; };
 layout(std430, binding = 14) writeonly buffer Centres { float centres[]; };  // of the fans
+layout(std430, binding = 11) readonly buffer Corners { uvec4 corners[]; };    // Quad::corners
 
 void write_triangle(uint t, uint a, uint b, uint c) {
   triangles[3u * t] = a;
@@ -21,9 +22,9 @@ void main() {
   uint n = gl_GlobalInvocationID.x;  // within the slab
   if (n >= count) return;
   uint q = first + n;
-  Quad at = quad(q);
+  ListedQuad at = listed_quad(q);
   // Counter-clockwise about the axis as they stand: right when the surface faces along it.
-  uvec4 v = at.inside_low ? at.corners : at.corners.xwzy;
+  uvec4 v = at.inside_low ? corners[q] : corners[q].xwzy;
   uint cut = cuts[q] & 3u, fans = cuts[q] >> 2u;
   uint t = 2u * (n + fans - (cuts[first] >> 2u));
   if (cut != CUT_FAN) {

@@ -60,7 +60,16 @@ void main() {
       vec3 move = -excess / max(slope2, 1e-30) * a.d;
       float far = max(max(abs(move.x), abs(move.y)), abs(move.z));
       move *= far > size ? size / far : 1.0;
-      vec3 newton = clamp(p + move, least, most);
+      vec3 newton = p + move;
+      // What the cell's faces hold back, the other coordinates make up for: one vertex in 70 of camel blends would wait
+      // for the bisection otherwise, and its subgroup with it (this pass in 0.9 of the time).
+      vec3 held = clamp(newton, least, most);
+      bvec3 is_held = notEqual(held, newton);
+      vec3 d_held = mix(vec3(0.0), a.d, is_held), d_free = a.d - d_held;
+      vec3 along = -(excess + dot(d_held, held - p)) / max(dot(d_free, d_free), 1e-30) * d_free;
+      float most_along = max(max(abs(along.x), abs(along.y)), abs(along.z));
+      along *= most_along > size ? size / most_along : 1.0;
+      newton = clamp(mix(p + along, held, is_held), least, most);
       // Where the surface lies between the cell's face and the margin, the vertex can't come closer.
       vec3 moved = abs(newton - p);
       bool is_stuck = max(max(moved.x, moved.y), moved.z) <= tolerance * size;

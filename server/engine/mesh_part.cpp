@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/brick_tapes.h"
+#include "engine/dealing.h"
 #include "engine/mesh_constants.h"
 #include "engine/mesh_creases.h"
 #include "engine/mesh_lattice.h"
@@ -234,38 +235,56 @@ class Run {
     return session.run();
   }
 
+  bool has_vertices(std::uint32_t brick) const { return starts_[brick + 1][0] > starts_[brick][0]; }
+
   absl::Status place_vertices() {
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(kernels_.of(shaders::kMeshPlace)));
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
     ISOFIELD_ASSIGN_OR_RETURN(positions_, session.scratch(std::size_t{12} * starts_.back()[0]));
     ISOFIELD_ASSIGN_OR_RETURN(kinds_buffer_, session.upload(std::span(kinds_)));
+    std::vector<Buffer> keep;
+    keep.reserve(2 * slabs_.size());
     for (const Slab& slab : slabs_) {
-      if (slab.first >= placed_) break;
-      Constants constants = constants_;
-      constants.first = slab.first;
-      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*kernel,
-                                                           {{4, &bricks_},
-                                                            {5, &surface_cases_},
-                                                            {6, &cells_},
-                                                            {7, &neighbours_},
-                                                            {8, &starts_buffer_},
-                                                            {9, &vertex_list_},
-                                                            {10, &crossings_},
-                                                            {11, &positions_},
-                                                            {12, &kinds_buffer_},
-                                                            {13, &slab.samples}},
-                                                           constants, std::min(slab.count, placed_ - slab.first)));
+      ISOFIELD_RETURN_IF_ERROR(place_vertices(session, slab, shaders::kMeshPlace, kMayCrease, keep));
+      ISOFIELD_RETURN_IF_ERROR(place_vertices(session, slab, shaders::kMeshPlaceSmooth, 0, keep));
     }
     ISOFIELD_RETURN_IF_ERROR(session.download(kinds_buffer_, std::span(kinds_)));
     return session.run();
+  }
+
+  // Of those of the slab's bricks of which kMayCrease is as told.
+  absl::Status place_vertices(Session& session, const Slab& slab, const shaders::InRounds& shader,
+                              std::uint32_t may_crease, std::vector<Buffer>& keep) {
+    std::vector<std::uint32_t> bricks;
+    for (std::uint32_t b = slab.first; b < std::min(slab.first + slab.count, placed_); ++b) {
+      if (has_vertices(b) && (kinds_[b] & kMayCrease) == may_crease) bricks.push_back(b);
+    }
+    if (bricks.empty()) return absl::OkStatus();
+    deal(bricks, 0, bricks.size(), device_.description().dispatch_runs);
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(kernels_.of(shader)));
+    ISOFIELD_ASSIGN_OR_RETURN(Buffer placed, session.upload(std::span(bricks)));
+    Constants constants = constants_;
+    constants.first = slab.first;
+    return session.commands().dispatch(*kernel,
+                                       {{4, &bricks_},
+                                        {5, &surface_cases_},
+                                        {6, &cells_},
+                                        {7, &neighbours_},
+                                        {8, &starts_buffer_},
+                                        {9, &vertex_list_},
+                                        {10, &crossings_},
+                                        {11, &positions_},
+                                        {12, &kinds_buffer_},
+                                        {13, &slab.samples},
+                                        {14, &keep.emplace_back(std::move(placed))}},
+                                       constants, static_cast<std::uint32_t>(bricks.size()));
   }
 
   // Onto the surface: vertices on creases along all sides of these, then all that are not there yet.
   absl::Status settle_vertices() {
     vertex_positions_.resize(std::size_t{3} * starts_[placed_][0]);
     if (request_.with_normals) vertex_normals_.resize(std::size_t{3} * starts_[owned_][0]);
-    const auto has_vertices = [&](std::uint32_t b) { return b < placed_ && starts_[b + 1][0] > starts_[b][0]; };
-    const auto has_own_vertices = [&](std::uint32_t b) { return b < owned_ && starts_[b + 1][0] > starts_[b][0]; };
+    const auto has_placed_vertices = [&](std::uint32_t b) { return b < placed_ && has_vertices(b); };
+    const auto has_own_vertices = [&](std::uint32_t b) { return b < owned_ && has_vertices(b); };
     const auto has_creases = [&](std::uint32_t b) { return b < placed_ && (kinds_[b] & kHasCreases) != 0; };
     Buffer normals;
     for (std::size_t s = 0; s < slabs_.size(); ++s) {
@@ -289,7 +308,7 @@ class Run {
                                                 keep));
       session.commands().barrier();
       ISOFIELD_RETURN_IF_ERROR(tapes_->run_each(session, kernels_.of(shaders::kMeshVertices), constants_, slab.first,
-                                                slab.count, has_vertices,
+                                                slab.count, has_placed_vertices,
                                                 {{4, &bricks_},
                                                  {6, &cells_},
                                                  {7, &surface_cases_},
@@ -332,7 +351,9 @@ class Run {
                        {9, &quad_list_},
                        {10, &crossings_}},
                       std::span(starts_).first(owned_ + 1), checked);
-    ISOFIELD_RETURN_IF_ERROR(cutter.cut(positions_, kinds_buffer_));
+    const bool is_smooth =
+        std::none_of(kinds_.begin(), kinds_.end(), [](std::uint32_t kind) { return (kind & kMayCrease) != 0; });
+    ISOFIELD_RETURN_IF_ERROR(cutter.cut(positions_, kinds_buffer_, is_smooth));
     const auto is_unknown = [&](std::uint32_t b) {
       return b < owned_ && (kinds_[b] & kKnowsCrossings) == 0 && cutter.has_fans(b);
     };

@@ -25,20 +25,22 @@ gpu::Commands::Bindings QuadCutter::with_quads(const gpu::Commands::Bindings& ow
   return all;
 }
 
-absl::Status QuadCutter::cut(const Buffer& positions, const Buffer& kinds) {
+absl::Status QuadCutter::cut(const Buffer& positions, const Buffer& kinds, bool is_smooth) {
   const std::uint32_t total = quad_count();
   cuts_.resize(total);
   ISOFIELD_ASSIGN_OR_RETURN(cuts_buffer_, Buffer::create(device_, std::size_t{4} * total, Buffer::Use::kDevice));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshQuads));
+  ISOFIELD_ASSIGN_OR_RETURN(corners_, Buffer::create(device_, std::size_t{16} * total, Buffer::Use::kDevice));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
+                            kernels_.get(is_smooth ? shaders::kMeshQuadsSmooth : shaders::kMeshQuads));
   for (std::uint32_t first = 0; first < total; first += kQuadSlab) {
     ISOFIELD_RETURN_IF_ERROR(check_(0.95));
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
     MeshConstants constants = constants_;
     constants.first = first;
     constants.count = std::min(kQuadSlab, total - first);
-    ISOFIELD_RETURN_IF_ERROR(
-        session.commands().dispatch(*kernel, with_quads({{11, &positions}, {12, &cuts_buffer_}, {13, &kinds}}),
-                                    constants, mesh_groups(constants.count)));
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
+        *kernel, with_quads({{11, &positions}, {12, &cuts_buffer_}, {13, &kinds}, {14, &corners_}}), constants,
+        mesh_groups(constants.count)));
     if (first + constants.count == total) {
       ISOFIELD_RETURN_IF_ERROR(session.download(cuts_buffer_, std::span(cuts_)));
     }
@@ -82,7 +84,8 @@ absl::StatusOr<Buffer> QuadCutter::make(std::vector<std::uint32_t>& corners, std
     constants.first = first;
     constants.count = count;
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        *kernel, with_quads({{12, &cuts_buffer_}, {13, &triangles}, {14, &centres}, {15, &fan_starts_buffer_}}),
+        *kernel,
+        with_quads({{11, &corners_}, {12, &cuts_buffer_}, {13, &triangles}, {14, &centres}, {15, &fan_starts_buffer_}}),
         constants, mesh_groups(count)));
     ISOFIELD_RETURN_IF_ERROR(session.download(triangles, std::span(corners).subspan(begin, end - begin)));
     if (first + count == total) {

@@ -34,8 +34,8 @@ class QuadCutter {
         starts_(starts),
         check_(check) {}
 
-  // Decides how each quad is cut. `kinds`: of bricks, by mesh_creases.h.
-  absl::Status cut(const gpu::Buffer& positions, const gpu::Buffer& kinds);
+  // Decides how each quad is cut. `kinds`: of bricks, by mesh_creases.h; `is_smooth`: none of them may have creases.
+  absl::Status cut(const gpu::Buffer& positions, const gpu::Buffer& kinds, bool is_smooth);
 
   // First fan of each brick, and the total.
   const std::vector<MeshStart>& fan_starts() const { return fan_starts_; }
@@ -60,7 +60,7 @@ class QuadCutter {
   const Check& check_;
   std::vector<std::uint32_t> cuts_;  // by quads: cut | fans before << 2
   std::vector<MeshStart> fan_starts_;
-  gpu::Buffer cuts_buffer_, fan_starts_buffer_;
+  gpu::Buffer cuts_buffer_, corners_, fan_starts_buffer_;
 };
 
 }  // namespace isofield::engine

@@ -12,11 +12,14 @@ const uint CUT_02 = 0u;  // along the diagonal of the vertices 0 and 2
 const uint CUT_13 = 1u;
 const uint CUT_FAN = 2u;  // four triangles around the crossing of its edge, which becomes a vertex
 
-struct Quad {
+struct ListedQuad {
   uint brick;
   uvec3 at;  // the cell in the brick that has its edge at its low corner
   uint axis;
   bool inside_low;
+};
+struct Quad {
+  ListedQuad edge;
   uvec4 vertices;  // counter-clockwise about the axis, from the cell at `at`
   uvec4 corners;   // the same as a triangle names them: number in its brick | which of the brick's coordinates are one less << 24
 };
@@ -37,13 +40,16 @@ uvec2 quad_vertex(uint b, uvec3 at, uint axis, uint du, uint dv) {
   return uvec2(starts[c.brick].x + number, number | below << 24u);
 }
 
+ListedQuad listed_quad(uint q) {
+  uvec2 listed = quad_list[q];
+  return ListedQuad(listed.x, cell_in_brick(listed.y & 0xffu), listed.y >> 8u & 3u, (listed.y >> 10u) != 0u);
+}
+
 Quad quad(uint q) {
-  uint b = quad_list[q].x, code = quad_list[q].y;
-  uvec3 at = cell_in_brick(code & 0xffu);
-  uint axis = code >> 8u & 3u;
-  uvec2 v0 = quad_vertex(b, at, axis, 0u, 0u), v1 = quad_vertex(b, at, axis, 1u, 0u),
-        v2 = quad_vertex(b, at, axis, 1u, 1u), v3 = quad_vertex(b, at, axis, 0u, 1u);
-  return Quad(b, at, axis, (code >> 10u) != 0u, uvec4(v0.x, v1.x, v2.x, v3.x), uvec4(v0.y, v1.y, v2.y, v3.y));
+  ListedQuad e = listed_quad(q);
+  uvec2 v0 = quad_vertex(e.brick, e.at, e.axis, 0u, 0u), v1 = quad_vertex(e.brick, e.at, e.axis, 1u, 0u),
+        v2 = quad_vertex(e.brick, e.at, e.axis, 1u, 1u), v3 = quad_vertex(e.brick, e.at, e.axis, 0u, 1u);
+  return Quad(e, uvec4(v0.x, v1.x, v2.x, v3.x), uvec4(v0.y, v1.y, v2.y, v3.y));
 }
 
 // Where the surface crosses the quad's edge, from its low end, in cells.
