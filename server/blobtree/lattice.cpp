@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace isofield::blobtree {
 namespace {
@@ -13,6 +14,11 @@ constexpr std::size_t kNotStored = ~std::size_t{0};
 bool has_same_code(const Instruction& a, const Instruction& b) {
   return a.code == b.code && a.leaf == b.leaf && a.operation == b.operation && a.index == b.index;
 }
+
+// Levels between cells that are culled by themselves, on any thread, and the whole; and how many a thread takes at
+// once.
+constexpr std::uint32_t kSharedLevels = 3;
+constexpr std::size_t kSharesAtOnce = 4;
 
 class Culler {
  public:
@@ -30,23 +36,11 @@ class Culler {
     }
     std::uint32_t level = 0;
     while ((std::uint64_t{1} << level) < *std::max_element(bricks_.begin(), bricks_.end())) ++level;
-    arena_ = tape_.code;
-    levels_.push_back({0, arena_.size(), kNotStored});
-    stack_.push_back({level, 0, 0, 0, 0});
-    std::uint32_t ticks = 0;
-    while (!stack_.empty()) {
-      if ((++ticks & 0x3ff) == 0 && request_.cancelled && request_.cancelled()) {
-        return absl::CancelledError("the request was cancelled");
-      }
-      const Cell cell = stack_.back();
-      stack_.pop_back();
-      visit(cell);
-      if (list_.bricks.size() > request_.max_bricks) {
-        return absl::ResourceExhaustedError(absl::StrCat("more than ", request_.max_bricks, " bricks"));
-      }
-      if (list_.code.size() > request_.max_instructions) {
-        return absl::ResourceExhaustedError(absl::StrCat("more than ", request_.max_instructions, " instructions"));
-      }
+    const bool is_shared = request_.for_each && level > kSharedLevels;
+    if (is_shared) shared_level_ = level - kSharedLevels;
+    if (absl::Status s = descend({level, 0, 0, 0, 0}, tape_.code); !s.ok()) return s;
+    if (is_shared) {
+      if (absl::Status s = share(); !s.ok()) return s;
     }
     return std::move(list_);
   }
@@ -62,6 +56,81 @@ class Culler {
     std::size_t begin, count;  // in arena_
     std::size_t stored;        // where it lies in the result, or kNotStored
   };
+
+  // A cell that is culled by itself, and where its parent's tape lies in shared_code_.
+  struct Share {
+    Cell cell;
+    std::size_t begin, count;
+  };
+
+  // From the cell on, whose parent has this tape.
+  absl::Status descend(Cell from, std::span<const Instruction> code) {
+    arena_.assign(code.begin(), code.end());
+    levels_.assign(1, {0, arena_.size(), kNotStored});
+    from.parent = 0;
+    stack_.assign(1, from);
+    while (!stack_.empty()) {
+      if ((++ticks_ & 0x3ff) == 0 && request_.cancelled && request_.cancelled()) {
+        return absl::CancelledError("the request was cancelled");
+      }
+      const Cell cell = stack_.back();
+      stack_.pop_back();
+      if (shared_level_ && cell.level == *shared_level_) {
+        put_aside(cell);
+        continue;
+      }
+      visit(cell);
+      if (absl::Status s = check_size(); !s.ok()) return s;
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status check_size() const {
+    if (list_.bricks.size() > request_.max_bricks) {
+      return absl::ResourceExhaustedError(absl::StrCat("more than ", request_.max_bricks, " bricks"));
+    }
+    if (list_.code.size() > request_.max_instructions) {
+      return absl::ResourceExhaustedError(absl::StrCat("more than ", request_.max_instructions, " instructions"));
+    }
+    return absl::OkStatus();
+  }
+
+  void put_aside(const Cell& cell) {
+    Level& parent = levels_[cell.parent];
+    if (parent.stored == kNotStored) {
+      parent.stored = shared_code_.size();
+      shared_code_.insert(shared_code_.end(), arena_.begin() + parent.begin,
+                          arena_.begin() + parent.begin + parent.count);
+    }
+    shares_.push_back({cell, parent.stored, parent.count});
+  }
+
+  // What was put aside, on all threads: the list is as one thread makes it, but that tapes which several shares have in
+  // common stand in it once for each.
+  absl::Status share() {
+    const std::size_t parts = (shares_.size() + kSharesAtOnce - 1) / kSharesAtOnce;
+    std::vector<absl::StatusOr<BrickList>> lists(parts, BrickList{});
+    request_.for_each(parts, [&](std::size_t part) {
+      Culler culler(tape_, request_);
+      absl::Status status;
+      for (std::size_t i = part * kSharesAtOnce; i < std::min((part + 1) * kSharesAtOnce, shares_.size()); ++i) {
+        status.Update(culler.descend(shares_[i].cell, {&shared_code_[shares_[i].begin], shares_[i].count}));
+        if (!status.ok()) break;
+      }
+      lists[part] = status.ok() ? absl::StatusOr<BrickList>(std::move(culler.list_)) : status;
+    });
+    for (const absl::StatusOr<BrickList>& list : lists) {
+      if (!list.ok()) return list.status();
+      const auto begin = static_cast<std::uint32_t>(list_.code.size());
+      list_.code.insert(list_.code.end(), list->code.begin(), list->code.end());
+      for (Brick b : list->bricks) {
+        b.tape_begin += begin;
+        list_.bricks.push_back(b);
+      }
+      if (absl::Status s = check_size(); !s.ok()) return s;
+    }
+    return absl::OkStatus();
+  }
 
   // Of the wanted bricks in the cell: where these are few, their tape is short from the first cell on.
   Box box_of(const Cell& cell) const {
@@ -156,6 +225,10 @@ class Culler {
   std::vector<Instruction> arena_;
   std::vector<Level> levels_;
   std::vector<Cell> stack_;
+  std::uint32_t ticks_ = 0;
+  std::optional<std::uint32_t> shared_level_;  // of cells that are put aside
+  std::vector<Share> shares_;
+  std::vector<Instruction> shared_code_;
   BrickList list_;
 };
 

@@ -59,8 +59,11 @@ struct CullRequest {
   bool is_capped = false;
   double margin = 0;  // model units: tapes hold as far around their bricks, too
   std::uint64_t max_bricks = ~0ull, max_instructions = ~0ull;
-  // Asked now and then; true gives up with CANCELLED.
+  // Asked now and then, by any of the threads; true gives up with CANCELLED.
   std::function<bool()> cancelled;
+  // for_each(count, work) calls work(0) to work(count - 1), on as many threads as it likes, and returns when all have;
+  // none: on this one.
+  std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)> for_each;
 };
 
 // RESOURCE_EXHAUSTED: more than max_bricks bricks, or tapes of more than max_instructions. Descends from the whole

@@ -10,8 +10,8 @@ namespace isofield::engine {
 
 // Deals jobs `begin` to `end` out into so many hands and lays these one after the other. What lies close together costs
 // alike, and lists have it side by side: of runs of such a list one may cost twice as much as another, of hands dealt
-// from it all cost the same. Neighbours that share memory stay together, by up to 64. (Meshes of a neuron by lavapipe on
-// two cores: 0.9 of the time.)
+// from it all cost the same. Neighbours that share memory stay together, by up to 64. (Meshes of a neuron by lavapipe
+// on two cores: 0.9 of the time.)
 template <class Job>
 void deal(std::vector<Job>& jobs, std::size_t begin, std::size_t end, std::uint32_t hands) {
   constexpr std::size_t kMostTogether = 64, kLeastRounds = 16;

@@ -1,5 +1,8 @@
 #include "engine/engine.h"
 
+#include <algorithm>
+#include <thread>
+
 #include "blobtree/blend_edit.h"
 #include "blobtree/compiler.h"
 #include "blobtree/scene_reader.h"
@@ -22,7 +25,8 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
             return fields_.evaluate(scene, xyz, quantity, out, cancelled, std::move(submission));
           },
           queue),
-      mesher_(*device_, kernels_),
+      workers_(std::max(std::thread::hardware_concurrency(), 1u) - 1),
+      mesher_(*device_, kernels_, workers_),
       rays_(fields_),
       projector_(fields_),
       operators_(*device_, kernels_, volumes_) {}

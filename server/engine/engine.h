@@ -18,6 +18,7 @@
 #include "engine/ray_caster.h"
 #include "engine/resident_scene.h"
 #include "engine/surface_projector.h"
+#include "engine/workers.h"
 #include "engine/written_kernels.h"
 #include "gpu/device.h"
 #include "isofield/v1/scene.pb.h"
@@ -77,6 +78,7 @@ class Engine {
   WrittenKernels written_;
   FieldEvaluator fields_;
   EvaluationQueue queue_;
+  Workers workers_;
   Mesher mesher_;
   RayCaster rays_;
   SurfaceProjector projector_;

@@ -72,7 +72,7 @@ absl::StatusOr<SurfaceBricks> Mesher::find_bricks(const ResidentScene& scene, co
   const std::uint64_t bound = device_.description().max_buffer_bytes / (4 * blobtree::kCellsPerBrick);
   const std::uint64_t most = std::min<std::uint64_t>({request.max_cells / blobtree::kCellsPerBrick, bound, 1u << 24});
   ISOFIELD_ASSIGN_OR_RETURN(SurfaceBricks all,
-                            surface_bricks(scene.tape(), request, within, most, callbacks.cancelled));
+                            surface_bricks(scene.tape(), request, within, most, callbacks.cancelled, &workers_));
   std::stable_sort(all.list.bricks.begin(), all.list.bricks.end(),
                    [](const Brick& a, const Brick& b) { return a.z / kLayerBricks < b.z / kLayerBricks; });
   return all;

@@ -18,13 +18,15 @@
 #include "engine/mesh_part.h"
 #include "engine/mesh_request.h"
 #include "engine/resident_scene.h"
+#include "engine/workers.h"
 
 namespace isofield::engine {
 
 // Thread-safe.
 class Mesher {
  public:
-  Mesher(gpu::Device& device, KernelCache& kernels) : device_(device), kernels_(kernels) {}
+  Mesher(gpu::Device& device, KernelCache& kernels, Workers& workers)
+      : device_(device), kernels_(kernels), workers_(workers) {}
 
   // Deterministic. RESOURCE_EXHAUSTED: more cells than admitted; the message states the smallest cell size that fits.
   absl::StatusOr<Mesh> mesh(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks);
@@ -48,6 +50,7 @@ class Mesher {
 
   gpu::Device& device_;
   KernelCache& kernels_;
+  Workers& workers_;
   MeshCache cache_;
 };
 

@@ -38,7 +38,7 @@ std::vector<reference::Sample> DeviceField::samples(const std::vector<dvec3>& po
 }
 
 engine::Mesh DeviceField::mesh(double cell_size) const {
-  static engine::Mesher mesher(device(), kernels());
+  static engine::Mesher mesher(device(), kernels(), workers());
   auto mesh = mesher.mesh(*scene_, {.cell_size = cell_size}, {});
   EXPECT_TRUE(mesh.ok()) << mesh.status();
   return mesh.ok() ? *std::move(mesh) : engine::Mesh{};

@@ -57,6 +57,11 @@ engine::VolumeCache& volumes() {
   return cache;
 }
 
+engine::Workers& workers() {
+  static engine::Workers the_workers(2);
+  return the_workers;
+}
+
 std::uint64_t scene_count(std::uint64_t many) {
   return std::getenv("ISOFIELD_TESTS_FEW_SCENES") ? std::min<std::uint64_t>(many, 2) : many;
 }

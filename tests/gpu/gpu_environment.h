@@ -3,6 +3,7 @@
 
 #include "engine/kernel_cache.h"
 #include "engine/resident_scene.h"
+#include "engine/workers.h"
 #include "gpu/device.h"
 #include "isofield/v1/scene.pb.h"
 
@@ -11,6 +12,7 @@ namespace isofield::gpu_test {
 gpu::Device& device();
 engine::KernelCache& kernels();
 engine::VolumeCache& volumes();
+engine::Workers& workers();
 
 // How many random scenes of each kind a test takes; two where ISOFIELD_TESTS_FEW_SCENES is set, since every kind of
 // scene has kernels of its own to compile.

@@ -74,7 +74,7 @@ dvec3 normal_of(const std::array<dvec3, 3>& corners) {
 // it leans than the side does over it is due to the cells, and falls with their size: 4 degrees at most at 64 cells.
 void expect_creases(const v1::Scene& scene, double cell, const std::vector<Side>& sides, double crease_length,
                     double iso = 0.5, double simplification_error = 0) {
-  static engine::Mesher mesher(device(), kernels());
+  static engine::Mesher mesher(device(), kernels(), workers());
   absl::StatusOr<Mesh> mesh = mesher.mesh(*resident(scene), {.cell_size = cell, .iso = iso}, {});
   ASSERT_TRUE(mesh.ok()) << mesh.status();
   if (simplification_error > 0) {

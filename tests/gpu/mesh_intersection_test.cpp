@@ -18,7 +18,7 @@ namespace isofield::gpu_test {
 namespace {
 
 void expect_no_intersections(const v1::Scene& scene, const engine::MeshRequest& request, const std::string& what) {
-  static engine::Mesher mesher(device(), kernels());
+  static engine::Mesher mesher(device(), kernels(), workers());
   const auto mesh = mesher.mesh(*resident(scene), request, {});
   ASSERT_TRUE(mesh.ok()) << mesh.status();
   if (mesh->triangles.empty()) return;

@@ -48,7 +48,7 @@ void put(const MeshCells& cells, Bricks& bricks) {
 }
 
 Bricks bricks_of(const engine::ResidentScene& scene, const MeshRequest& request) {
-  engine::Mesher mesher(device(), kernels());  // one that has kept nothing
+  engine::Mesher mesher(device(), kernels(), workers());  // one that has kept nothing
   Bricks bricks;
   const absl::Status s = mesher.cells(scene, request, {}, [&](const MeshCells& cells) {
     EXPECT_TRUE(std::is_sorted(cells.bricks.begin(), cells.bricks.end(), engine::comes_before<MeshBrick, MeshBrick>));
@@ -95,7 +95,7 @@ TEST(MeshParts, EightBoxesStitchedAreTheWhole) {
 
 TEST(MeshParts, ManySmallPartsAreTheWhole) {
   const auto scene = resident(test_support::random_scene(3, {.nodes = 60, .cuts = false, .all_operators = false}));
-  engine::Mesher mesher(device(), kernels());
+  engine::Mesher mesher(device(), kernels(), workers());
   MeshRequest request{.cell_size = 0.04};
   const auto whole = mesher.mesh(*scene, request, {});
   ASSERT_TRUE(whole.ok());
@@ -119,7 +119,7 @@ TEST(MeshParts, ManySmallPartsAreTheWhole) {
 
 TEST(MeshParts, AFailureToDeliverEndsTheWork) {
   const auto scene = resident(test_support::random_scene(3, {.nodes = 20, .all_operators = false}));
-  engine::Mesher mesher(device(), kernels());
+  engine::Mesher mesher(device(), kernels(), workers());
   const absl::Status s =
       mesher.cells(*scene, {.cell_size = 0.1}, {}, [](const MeshCells&) { return absl::CancelledError("enough"); });
   EXPECT_EQ(s.message(), "enough");
@@ -151,7 +151,7 @@ TEST(MeshTracker, LeadsToTheMeshOfAFreshRequest) {
     test_support::Random random(7);
     v1::Scene scene = balls(random, 60, is_blended);
     const MeshRequest request{.cell_size = 0.03};
-    engine::Mesher mesher(device(), kernels());
+    engine::Mesher mesher(device(), kernels(), workers());
     engine::MeshTracker tracker(mesher, request);
     Bricks followed;
     std::size_t sent = 0, all = 0;
@@ -200,7 +200,7 @@ TEST(MeshTracker, LeadsToTheMeshOfAFreshRequest) {
 TEST(MeshTracker, SeesThatNothingChanged) {
   test_support::Random random(9);
   const v1::Scene scene = balls(random, 20, true);
-  engine::Mesher mesher(device(), kernels());
+  engine::Mesher mesher(device(), kernels(), workers());
   engine::MeshTracker tracker(mesher, {.cell_size = 0.05});
   ASSERT_TRUE(tracker.update(resident(scene), {}).ok());
   const auto again = tracker.update(resident(scene), {});
@@ -213,7 +213,7 @@ TEST(MeshTracker, SeesThatNothingChanged) {
 TEST(MeshTracker, StartsAnewAfterACancelledUpdate) {
   test_support::Random random(9);
   v1::Scene scene = balls(random, 20, true);
-  engine::Mesher mesher(device(), kernels());
+  engine::Mesher mesher(device(), kernels(), workers());
   engine::MeshTracker tracker(mesher, {.cell_size = 0.05});
   ASSERT_TRUE(tracker.update(resident(scene), {}).ok());
   scene.mutable_nodes(3)->mutable_sphere()->set_radius(0.25);

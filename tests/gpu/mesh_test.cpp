@@ -24,7 +24,7 @@ using engine::MeshRequest;
 
 absl::StatusOr<Mesh> mesh(const v1::Scene& scene, const MeshRequest& request,
                           const engine::MeshCallbacks& callbacks = {}) {
-  static engine::Mesher mesher(device(), kernels());
+  static engine::Mesher mesher(device(), kernels(), workers());
   return mesher.mesh(*resident(scene), request, callbacks);
 }
 

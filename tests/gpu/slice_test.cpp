@@ -75,7 +75,7 @@ TEST(IsoLines, EndAtTheBorderAndJoinByTheMean) {
 }
 
 TEST(MeshMeasure, FollowsTheFormulas) {
-  engine::Mesher mesher(device(), kernels());
+  engine::Mesher mesher(device(), kernels(), workers());
   const auto ball = mesher.mesh(*resident(ball_scene()), {.cell_size = 0.02}, {});
   ASSERT_TRUE(ball.ok());
   const engine::MeshMeasures m = engine::measure(*ball);

@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <atomic>
 #include <cstdio>
+#include <cstring>
+#include <functional>
 #include <map>
 #include <set>
 #include <span>
+#include <thread>
 #include <tuple>
 
 #include "reference/evaluator.h"
@@ -175,6 +180,49 @@ TEST(Cull, LimitsAndCancellationAreObeyed) {
   const Lattice fine{{-2, -2, -2}, {0.01, 0.01, 0.01}, {400, 400, 400}};
   const auto cancelled = cull(tape, {.lattice = fine, .cancelled = [] { return true; }});
   EXPECT_EQ(cancelled.status().code(), absl::StatusCode::kCancelled);
+}
+
+// On threads the list is the same, brick by brick and instruction by instruction.
+TEST(Cull, ThreadsMakeTheSameList) {
+  const auto on_threads = [](std::size_t count, const std::function<void(std::size_t)>& work) {
+    std::atomic<std::size_t> next = 0;
+    const auto take = [&] {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    };
+    std::thread other(take);
+    take();
+    other.join();
+  };
+  const Lattice fine{{-2, -2, -2}, {0.02, 0.022, 0.024}, {201, 183, 170}};
+  std::size_t shared = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Tape tape = compile_or_die(read_or_die(test_support::random_scene(seed, {.nodes = 60})));
+    CullRequest request{.lattice = fine, .keep = seed % 2 == 0 ? Keep::kSurface : Keep::kSupport};
+    const auto alone = cull(tape, request);
+    request.for_each = [&](std::size_t count, const std::function<void(std::size_t)>& work) {
+      shared += count;
+      on_threads(count, work);
+    };
+    const auto together = cull(tape, request);
+    ASSERT_TRUE(alone.ok() && together.ok());
+    ASSERT_EQ(alone->bricks.size(), together->bricks.size());
+    for (std::size_t i = 0; i < alone->bricks.size(); ++i) {
+      const Brick &a = alone->bricks[i], &b = together->bricks[i];
+      ASSERT_EQ((std::array{a.x, a.y, a.z, a.tape_count}), (std::array{b.x, b.y, b.z, b.tape_count}));
+      ASSERT_EQ(
+          std::memcmp(&alone->code[a.tape_begin], &together->code[b.tape_begin], a.tape_count * sizeof(Instruction)),
+          0);
+    }
+    if (alone->bricks.empty()) continue;
+    request.max_bricks = alone->bricks.size() - 1;
+    EXPECT_TRUE(absl::IsResourceExhausted(cull(tape, request).status()));
+  }
+  EXPECT_GT(shared, 100u);
+  CullRequest cancelled{.lattice = {{-2, -2, -2}, {0.001, 0.001, 0.001}, {4000, 4000, 4000}}};
+  cancelled.cancelled = [] { return true; };
+  cancelled.for_each = on_threads;
+  const Tape tape = compile_or_die(read_or_die(test_support::random_scene(3, {.nodes = 60})));
+  EXPECT_TRUE(absl::IsCancelled(cull(tape, cancelled).status()));
 }
 
 }  // namespace
