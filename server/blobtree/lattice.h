@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "blobtree/brick_set.h"
+#include "blobtree/for_each.h"
 #include "blobtree/pruner.h"
 #include "blobtree/tape.h"
 
@@ -61,9 +62,7 @@ struct CullRequest {
   std::uint64_t max_bricks = ~0ull, max_instructions = ~0ull;
   // Asked now and then, by any of the threads; true gives up with CANCELLED.
   std::function<bool()> cancelled;
-  // for_each(count, work) calls work(0) to work(count - 1), on as many threads as it likes, and returns when all have;
-  // none: on this one.
-  std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)> for_each;
+  ForEach for_each;
 };
 
 // RESOURCE_EXHAUSTED: more than max_bricks bricks, or tapes of more than max_instructions. Descends from the whole

@@ -32,8 +32,8 @@ struct PointBins {
 // Tapes of so few instructions are not worth sorting points for.
 inline constexpr std::size_t kUnsortedInstructions = 12;
 
-// `xyz` holds 3 numbers a point, of which those that are not finite are taken for 0. All of them are one group where the
-// tape is not worth sorting for.
+// `xyz` holds 3 numbers a point, of which those that are not finite are taken for 0. All of them are one group where
+// the tape is not worth sorting for.
 PointBins bin_points(const Tape& tape, std::span<const float> xyz);
 
 }  // namespace isofield::blobtree

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace isofield::blobtree {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 constexpr double kBricksAlongPerRoot = 1.6, kLeastAlong = 16, kMostAlong = 64;
 // Of a brick, by which the boxes that tapes are pruned for overlap: float32 finds a point's brick within this.
 constexpr double kRoom = 1e-3;
+// Points that are worth a thread's while, and parts for several threads to share evenly.
+constexpr std::size_t kLeastPart = 1u << 13, kMostParts = 8;
 
 }  // namespace
 
@@ -64,20 +67,36 @@ std::uint32_t PointGrid::brick_at(const float* p) const {
   return places_[at[0] + std::size_t{counts_[0]} * (at[1] + std::size_t{counts_[1]} * at[2])];
 }
 
-PointGrid::Sorted PointGrid::sort(std::span<const float> xyz) const {
+PointGrid::Sorted PointGrid::sort(std::span<const float> xyz, const ForEach& for_each) const {
   const std::size_t count = xyz.size() / 3, bins = std::size_t{bricks_} + 1;
+  const std::size_t parts = for_each ? std::clamp<std::size_t>(count / kLeastPart, 1, kMostParts) : 1;
+  const auto in_parts = [&](const auto& work) {
+    const auto part = [&](std::size_t i) { work(i, count * i / parts, count * (i + 1) / parts); };
+    if (parts > 1) return for_each(parts, part);
+    part(0);
+  };
   const auto bin_of = std::make_unique_for_overwrite<std::uint32_t[]>(count);
+  // Of each part: how many of its points are in a bin, then where there the next of them goes.
+  std::vector<std::vector<std::uint32_t>> places(parts);
+  in_parts([&](std::size_t part, std::size_t begin, std::size_t end) {
+    places[part].assign(bins, 0);
+    for (std::size_t i = begin; i < end; ++i) ++places[part][bin_of[i] = brick_at(&xyz[3 * i])];
+  });
   Sorted sorted;
-  // One place on: what is counted there becomes where the bin's next point goes, and at last where the next bin begins.
-  sorted.starts.assign(bins + 2, 0);
-  for (std::size_t i = 0; i < count; ++i) ++sorted.starts[(bin_of[i] = brick_at(&xyz[3 * i])) + 2];
-  for (std::size_t b = 1; b <= bins; ++b) sorted.starts[b + 1] += sorted.starts[b];
-  sorted.points = std::make_unique_for_overwrite<PlacedPoint[]>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* p = &xyz[3 * i];
-    sorted.points[sorted.starts[bin_of[i] + 1]++] = {p[0], p[1], p[2], static_cast<std::uint32_t>(i)};
+  sorted.starts.reserve(bins + 1);
+  std::uint32_t next = 0;
+  for (std::size_t b = 0; b < bins; ++b) {
+    sorted.starts.push_back(next);
+    for (auto& of_part : places) next += std::exchange(of_part[b], next);
   }
-  sorted.starts.pop_back();
+  sorted.starts.push_back(next);
+  sorted.points = std::make_unique_for_overwrite<PlacedPoint[]>(count);
+  in_parts([&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const float* p = &xyz[3 * i];
+      sorted.points[places[part][bin_of[i]]++] = {p[0], p[1], p[2], static_cast<std::uint32_t>(i)};
+    }
+  });
   return sorted;
 }
 

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "blobtree/for_each.h"
 #include "blobtree/lattice.h"
 #include "blobtree/point_bins.h"
 #include "blobtree/tape.h"
@@ -32,7 +33,7 @@ class PointGrid {
   };
   // `xyz` holds 3 numbers a point; where they are not finite, the point is in any bin. Within a brick they keep their
   // order.
-  Sorted sort(std::span<const float> xyz) const;
+  Sorted sort(std::span<const float> xyz, const ForEach& for_each = {}) const;
 
  private:
   std::uint32_t brick_at(const float* p) const;

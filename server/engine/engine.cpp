@@ -14,10 +14,11 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
                const TierTwoOptions& tier_two)
     : device_(std::move(device)),
       limits_(limits),
+      workers_(std::max(std::thread::hardware_concurrency(), 1u) - 1),
       kernels_(*device_),
       volumes_(*device_, kernels_),
       written_(*device_, tier_two),
-      fields_(*device_, kernels_, &written_),
+      fields_(*device_, kernels_, workers_, &written_),
       queue_(
           device_->turns(),
           [this](const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
@@ -25,7 +26,6 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
             return fields_.evaluate(scene, xyz, quantity, out, cancelled, std::move(submission));
           },
           queue),
-      workers_(std::max(std::thread::hardware_concurrency(), 1u) - 1),
       mesher_(*device_, kernels_, workers_),
       rays_(fields_),
       projector_(fields_),

@@ -73,12 +73,12 @@ class Engine {
 
   std::unique_ptr<gpu::Device> device_;
   blobtree::SceneLimits limits_;
+  Workers workers_;
   KernelCache kernels_;
   VolumeCache volumes_;
   WrittenKernels written_;
   FieldEvaluator fields_;
   EvaluationQueue queue_;
-  Workers workers_;
   Mesher mesher_;
   RayCaster rays_;
   SurfaceProjector projector_;

@@ -136,7 +136,7 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
     const std::size_t part = std::min(most, count - first);
     const std::span<const float> part_xyz = xyz.subspan(3 * first, 3 * part);
-    blobtree::PointGrid::Sorted sorted = index.grid().sort(part_xyz);
+    blobtree::PointGrid::Sorted sorted = index.grid().sort(part_xyz, workers_.for_each());
     std::vector<Group> groups;
     std::uint64_t work = 0;
     for (std::size_t b = 0; b <= bricks; ++b) {

@@ -14,6 +14,7 @@
 #include "engine/point_index.h"
 #include "engine/resident_scene.h"
 #include "engine/session.h"
+#include "engine/workers.h"
 #include "engine/written_kernels.h"
 #include "gpu/turns.h"
 
@@ -28,8 +29,8 @@ inline std::size_t components(Quantity q) {
 class FieldEvaluator {
  public:
   // `written`: none where all is interpreted.
-  FieldEvaluator(gpu::Device& device, KernelCache& kernels, WrittenKernels* written = nullptr)
-      : device_(device), kernels_(kernels), written_(written) {}
+  FieldEvaluator(gpu::Device& device, KernelCache& kernels, Workers& workers, WrittenKernels* written = nullptr)
+      : device_(device), kernels_(kernels), workers_(workers), written_(written) {}
 
   // Asked between submissions; true ends the work with CANCELLED.
   using Cancelled = std::function<bool()>;
@@ -90,6 +91,7 @@ class FieldEvaluator {
 
   gpu::Device& device_;
   KernelCache& kernels_;
+  Workers& workers_;
   WrittenKernels* written_;
   PointIndexCache indices_;
 };

@@ -35,7 +35,7 @@ absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshReq
                    .is_capped = request.bounds.has_value(),
                    .max_bricks = max_bricks,
                    .cancelled = cancelled};
-  if (workers) cull.for_each = [workers](std::size_t count, const auto& work) { workers->for_each(count, work); };
+  if (workers) cull.for_each = workers->for_each();
   return blobtree::cull(tape, cull);
 }
 

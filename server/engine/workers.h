@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "blobtree/for_each.h"
+
 namespace isofield::engine {
 
 // Thread-safe.
@@ -24,6 +26,9 @@ class Workers {
   // Calls work(0) to work(count - 1), each once, on this thread and on those that have nothing to do; returns when all
   // have returned. `work` throws nothing.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& work);
+  blobtree::ForEach for_each() {
+    return [this](std::size_t count, const std::function<void(std::size_t)>& work) { for_each(count, work); };
+  }
 
  private:
   struct Task {

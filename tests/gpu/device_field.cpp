@@ -11,7 +11,7 @@ using blobtree::dvec3;
 using engine::Quantity;
 
 std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<dvec3>& points, Quantity quantity) {
-  static engine::FieldEvaluator evaluator(device(), kernels());
+  static engine::FieldEvaluator evaluator(device(), kernels(), workers());
   std::vector<float> xyz;
   xyz.reserve(3 * points.size());
   for (const dvec3& p : points) {

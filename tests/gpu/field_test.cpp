@@ -21,7 +21,7 @@ using blobtree::dvec3;
 using engine::Quantity;
 
 engine::FieldEvaluator& fields() {
-  static engine::FieldEvaluator evaluator(device(), kernels());
+  static engine::FieldEvaluator evaluator(device(), kernels(), workers());
   return evaluator;
 }
 
@@ -217,7 +217,7 @@ TEST(FieldOnDevice, IsZeroWhereNothingIs) {
     }
     *scene.add_nodes() = sum;
     const engine::SceneLease lease = resident(scene);
-    engine::FieldEvaluator fresh(device(), kernels());
+    engine::FieldEvaluator fresh(device(), kernels(), workers());
     for (const float near : {5.0f, 0.0f}) {  // all points far away, and all but some of the first ones
       std::vector<float> xyz = random_points(1, 300'000, 1);
       for (std::size_t i = near == 0 ? 300 : 0; i < xyz.size(); ++i) xyz[i] += 5;
@@ -248,7 +248,7 @@ TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
     ASSERT_GT(lease->tape().code.size(), 12u);
     const std::vector<float> xyz = random_points(seed, 150'000, 2);
     // An evaluator that has seen nothing, and so sorts the first batches by themselves.
-    engine::FieldEvaluator fresh(device(), kernels());
+    engine::FieldEvaluator fresh(device(), kernels(), workers());
     std::vector<float> first(4 * 150'000), out(first.size());
     for (int batch = 0; batch < 6; ++batch) {
       std::vector<float>& to = batch == 0 ? first : out;

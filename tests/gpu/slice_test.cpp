@@ -16,7 +16,7 @@ namespace {
 using blobtree::dvec3;
 
 engine::FieldEvaluator& fields() {
-  static engine::FieldEvaluator evaluator(device(), kernels());
+  static engine::FieldEvaluator evaluator(device(), kernels(), workers());
   return evaluator;
 }
 

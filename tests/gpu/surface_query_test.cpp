@@ -21,7 +21,7 @@ using engine::RayHits;
 using engine::RayRequest;
 
 engine::FieldEvaluator& fields() {
-  static engine::FieldEvaluator evaluator(device(), kernels());
+  static engine::FieldEvaluator evaluator(device(), kernels(), workers());
   return evaluator;
 }
 

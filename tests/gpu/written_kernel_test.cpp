@@ -33,7 +33,7 @@ std::vector<float> random_points(std::uint64_t seed, int count) {
 
 std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<float>& xyz, Quantity quantity,
                             WrittenKernels* written) {
-  engine::FieldEvaluator fields(device(), kernels(), written);
+  engine::FieldEvaluator fields(device(), kernels(), workers(), written);
   std::vector<float> out(xyz.size() / 3 * components(quantity), -1);
   const absl::Status status = fields.evaluate(scene, xyz, quantity, out);
   EXPECT_TRUE(status.ok()) << status;
@@ -179,7 +179,7 @@ TEST(WrittenKernels, TakeLargeBatches) {
   const std::vector<float> xyz = random_points(8, kCount);
   expect_near(evaluate(*scene, xyz, Quantity::kValueAndGradient, &written),
               evaluate(*scene, xyz, Quantity::kValueAndGradient, nullptr), 4, "large");
-  engine::FieldEvaluator fields(device(), kernels(), &written);
+  engine::FieldEvaluator fields(device(), kernels(), workers(), &written);
   std::vector<float> out(4 * std::size_t{kCount});
   int asked = 0;
   const absl::Status cut = fields.evaluate(*scene, xyz, Quantity::kValueAndGradient, out, [&] { return ++asked == 3; });
@@ -195,7 +195,7 @@ TEST(WrittenKernels, ReadAndWriteWhereverTheArraysLie) {
   for (WrittenKernels* const kernels_or_none : {&written, static_cast<WrittenKernels*>(nullptr)}) {
     const std::vector<float> expected = evaluate(*scene, xyz, Quantity::kValueAndGradient, kernels_or_none);
     EXPECT_EQ(std::count(expected.begin(), expected.end(), -1), 0) << "not written";
-    engine::FieldEvaluator fields(device(), kernels(), kernels_or_none);
+    engine::FieldEvaluator fields(device(), kernels(), workers(), kernels_or_none);
     // Of floats into arrays that lie at multiples of 16 bytes.
     for (const auto& [in, out] : {std::pair{0, 0}, {4, 4}, {1, 4}, {4, 3}, {2, 1}}) {
       std::vector<float> points(in), results(4 * kCount + 2 * kRoom, -7);

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <functional>
+
 #include "reference/evaluator.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
@@ -85,6 +89,27 @@ TEST(PointGrid, IsNoneWhereMostPrimitivesOverlap) {
   BrickList bricks;
   EXPECT_EQ(PointGrid::make(tape, bricks, {}).status().code(), absl::StatusCode::kResourceExhausted);
   EXPECT_EQ(PointGrid::make(tape, bricks, [] { return true; }).status().code(), absl::StatusCode::kCancelled);
+}
+
+TEST(PointGrid, SortsInPartsAsInOne) {
+  const Tape tape = compile_or_die(read_or_die(test_support::random_scene(5, {.nodes = 40})));
+  BrickList list;
+  const auto grid = PointGrid::make(tape, list, {});
+  ASSERT_TRUE(grid.ok()) << grid.status();
+  Random random(5);
+  for (const std::size_t count : {0u, 1u, 8191u, 20'000u, 100'000u}) {
+    const std::vector<float> xyz = points_about(tape.support, random, count);
+    std::size_t parts = 0;
+    const PointGrid::Sorted whole = grid->sort(xyz);
+    const PointGrid::Sorted sorted = grid->sort(xyz, [&](std::size_t n, const std::function<void(std::size_t)>& work) {
+      parts = n;
+      for (std::size_t i = n; i > 0; --i) work(i - 1);
+    });
+    EXPECT_EQ(parts > 1, count > 16'000);
+    EXPECT_EQ(sorted.starts, whole.starts);
+    EXPECT_EQ(sorted.starts.back(), count);
+    EXPECT_EQ(std::memcmp(sorted.points.get(), whole.points.get(), count * sizeof(PlacedPoint)), 0);
+  }
 }
 
 }  // namespace
