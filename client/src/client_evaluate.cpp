@@ -1,5 +1,6 @@
 #include <absl/strings/str_cat.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstring>
 #include <deque>
@@ -112,7 +113,6 @@ class StreamedEvaluation {
 
   absl::Status read_all(std::uint64_t columns, const Client::ResultSink& sink) {
     v1::EvaluateResponse response;
-    std::vector<float> received;
     for (std::size_t number = 0; stream_->Read(&response); ++number) {
       std::span<const float> xyz;
       {
@@ -125,9 +125,9 @@ class StreamedEvaluation {
         const std::byte* const at = memory_->data() + number % kSlots * kSlotBytes + kSlotPoints;
         results = {reinterpret_cast<const float*>(at), xyz.size() / 3 * columns};
       } else {
-        received.clear();
-        if (auto status = append_floats(response.result(), columns, received); !status.ok()) return status;
-        results = received;
+        const auto received = floats_of(response.result(), columns);
+        if (!received.ok()) return received.status();
+        results = *received;
       }
       if (results.size() / columns != xyz.size() / 3) {
         return absl::InternalError(absl::StrCat("the server answered ", results.size() / columns, " of ",
@@ -179,54 +179,82 @@ absl::Status Client::evaluate(const v1::SceneRef& scene, bool gradient, const Po
       sink);
 }
 
-absl::StatusOr<std::vector<float>> Client::evaluate(const v1::SceneRef& scene, std::span<const float> xyz,
-                                                    bool gradient) {
+absl::Status Client::Impl::evaluate(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient,
+                                    const std::function<void()>& restart, const ResultSink& sink) {
   if (xyz.size() % 3 != 0) {
     return absl::InvalidArgumentError(
         absl::StrCat("points: ", xyz.size(), " coordinates; expected a multiple of 3 (x, y, z of each point)"));
   }
-  if (xyz.size() / 3 <= kUnaryPoints) return evaluate_message(scene, xyz, gradient);
-  std::vector<float> all;
-  const auto status = impl_->retry([&] {
+  if (xyz.size() / 3 <= kUnaryPoints) {
+    restart();
+    return evaluate_message(scene, xyz, gradient, sink);
+  }
+  return retry([&] {
     std::size_t sent = 0;
-    all.clear();
-    all.reserve(xyz.size() / 3 * (gradient ? 4 : 1));
-    return impl_->stream(
+    restart();
+    return stream(
         scene, gradient,
         [&](Chunk& chunk) {
           chunk.xyz = xyz.subspan(sent, std::min(3 * kChunkPoints, xyz.size() - sent));
           sent += chunk.xyz.size();
           return absl::OkStatus();
         },
-        [&](std::span<const float>, std::span<const float> results) {
-          all.insert(all.end(), results.begin(), results.end());
-          return absl::OkStatus();
-        });
+        sink);
   });
-  if (!status.ok()) return status;
-  return all;
 }
 
-absl::StatusOr<std::vector<float>> Client::evaluate_message(const v1::SceneRef& scene, std::span<const float> xyz,
-                                                            bool gradient) {
+absl::Status Client::Impl::evaluate_message(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient,
+                                            const ResultSink& sink) {
   v1::EvaluateRequest request;
   *request.mutable_scene() = scene;
   request.set_quantity(quantity_of(gradient));
   set_points(xyz, *request.mutable_points());
   v1::EvaluateResponse response;
-  auto status = impl_->retry([&] {
-    return impl_->call(
-        [&](grpc::ClientContext* context) { return impl_->fields->Evaluate(context, request, &response); });
+  auto status = retry([&] {
+    return call([&](grpc::ClientContext* context) { return fields->Evaluate(context, request, &response); });
   });
   if (!status.ok()) return status;
   const std::size_t columns = gradient ? 4 : 1;
-  std::vector<float> results;
-  if (status = append_floats(response.result(), columns, results); !status.ok()) return status;
-  if (results.size() / columns != xyz.size() / 3) {
+  const auto results = floats_of(response.result(), columns);
+  if (!results.ok()) return results.status();
+  if (results->size() / columns != xyz.size() / 3) {
     return absl::InternalError(
-        absl::StrCat("the server answered ", results.size() / columns, " of ", xyz.size() / 3, " points"));
+        absl::StrCat("the server answered ", results->size() / columns, " of ", xyz.size() / 3, " points"));
   }
-  return results;
+  return sink(xyz, *results);
+}
+
+absl::StatusOr<std::vector<float>> Client::evaluate(const v1::SceneRef& scene, std::span<const float> xyz,
+                                                    bool gradient) {
+  std::vector<float> all;
+  const absl::Status status = impl_->evaluate(
+      scene, xyz, gradient,
+      [&] {
+        all.clear();
+        all.reserve(xyz.size() / 3 * (gradient ? 4 : 1));
+      },
+      [&](std::span<const float>, std::span<const float> results) {
+        all.insert(all.end(), results.begin(), results.end());
+        return absl::OkStatus();
+      });
+  if (!status.ok()) return status;
+  return all;
+}
+
+absl::Status Client::evaluate(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient,
+                              std::span<float> results) {
+  const std::size_t wanted = xyz.size() / 3 * (gradient ? 4 : 1);
+  if (results.size() != wanted) {
+    return absl::InvalidArgumentError(absl::StrCat("results: room for ", results.size(), " numbers; expected ", wanted,
+                                                   " for ", xyz.size() / 3, " points"));
+  }
+  float* to = results.data();
+  return impl_->evaluate(
+      scene, xyz, gradient, [&] { to = results.data(); },
+      [&](std::span<const float>, std::span<const float> part) {
+        to = std::copy(part.begin(), part.end(), to);
+        return absl::OkStatus();
+      });
 }
 
 absl::StatusOr<Grid> Client::evaluate_grid(const v1::SceneRef& scene, const std::array<double, 3>& origin,

@@ -43,6 +43,11 @@ struct Client::Impl {
   SharedMemoryPool shared_memory;
 
   // Any number of points, in chunks.
+  // Hands a batch's results to `sink` in their order; begins anew, with `restart`, where it is sent once more.
+  absl::Status evaluate(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient,
+                        const std::function<void()>& restart, const ResultSink& sink);
+  absl::Status evaluate_message(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient,
+                                const ResultSink& sink);
   absl::Status stream(const v1::SceneRef& scene, bool gradient, const ChunkSource& source, const ResultSink& sink);
   // For one evaluation; null: it takes the wire.
   std::unique_ptr<SharedMemory> take_shared_memory(std::size_t bytes);

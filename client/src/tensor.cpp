@@ -4,16 +4,16 @@
 #include <absl/strings/str_join.h>
 
 #include <bit>
-#include <cstring>
 
 namespace isofield {
 namespace {
 
-// Bytes of a tensor are little-endian; they are copied, not converted.
+// Bytes of a tensor are little-endian; they are taken as they are.
 static_assert(std::endian::native == std::endian::little);
 
 template <typename T>
-absl::Status append(const v1::Tensor& tensor, v1::Tensor::DType dtype, std::uint64_t columns, std::vector<T>& out) {
+absl::StatusOr<std::span<const T>> numbers_of(const v1::Tensor& tensor, v1::Tensor::DType dtype,
+                                              std::uint64_t columns) {
   const std::string& data = tensor.data();
   // Divides rather than multiplies, so that no shape overflows.
   std::uint64_t left = data.size() / sizeof(T);
@@ -28,9 +28,15 @@ absl::Status append(const v1::Tensor& tensor, v1::Tensor::DType dtype, std::uint
                                             absl::StrJoin(tensor.shape(), ", "), "], ", data.size(),
                                             " bytes; expected dtype ", dtype, " and ", columns, " columns"));
   }
-  const std::size_t before = out.size();
-  out.resize(before + data.size() / sizeof(T));
-  if (!data.empty()) std::memcpy(out.data() + before, data.data(), data.size());
+  // Of a string's bytes, which lie as numbers may, on the heap and off it.
+  return std::span(reinterpret_cast<const T*>(data.data()), data.size() / sizeof(T));
+}
+
+template <typename T>
+absl::Status append(const v1::Tensor& tensor, v1::Tensor::DType dtype, std::uint64_t columns, std::vector<T>& out) {
+  const auto numbers = numbers_of<T>(tensor, dtype, columns);
+  if (!numbers.ok()) return numbers.status();
+  out.insert(out.end(), numbers->begin(), numbers->end());
   return absl::OkStatus();
 }
 
@@ -42,6 +48,10 @@ void set_floats(std::span<const float> numbers, std::uint64_t columns, v1::Tenso
   tensor.add_shape(numbers.size() / columns);
   tensor.add_shape(columns);
   tensor.set_data(numbers.data(), numbers.size_bytes());
+}
+
+absl::StatusOr<std::span<const float>> floats_of(const v1::Tensor& tensor, std::uint64_t columns) {
+  return numbers_of<float>(tensor, v1::Tensor::FLOAT32, columns);
 }
 
 absl::Status append_floats(const v1::Tensor& tensor, std::uint64_t columns, std::vector<float>& out) {

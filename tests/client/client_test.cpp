@@ -77,6 +77,9 @@ TEST_F(ClientTest, EvaluatesBatchesOfAllSizes) {
           ASSERT_EQ((*result)[4 * i + 3], 3);
         }
       }
+      std::vector<float> own(columns * count, -1);
+      ASSERT_TRUE(client_.evaluate(inline_scene(ball()), xyz, gradient, own).ok());
+      ASSERT_EQ(own, *result);
     }
   }
   EXPECT_EQ(server_.largest_chunk, Client::kChunkPoints);
@@ -111,9 +114,14 @@ TEST_F(ClientTest, StreamsTenMillionPoints) {
   EXPECT_EQ(wrong, 0u);
 }
 
-TEST_F(ClientTest, RefusesOddCoordinates) {
+TEST_F(ClientTest, RefusesOddCoordinatesAndResultsThatDoNotFit) {
   EXPECT_EQ(client_.evaluate(inline_scene(ball()), std::vector<float>(4), false).status().code(),
             absl::StatusCode::kInvalidArgument);
+  std::vector<float> room(7);
+  for (const std::size_t count : {std::size_t{3}, std::size_t{6}, std::size_t{8}}) {
+    EXPECT_EQ(client_.evaluate(inline_scene(ball()), std::vector<float>(count), true, room).code(),
+              absl::StatusCode::kInvalidArgument);
+  }
   EXPECT_EQ(server_.reads, 0);
 }
 
