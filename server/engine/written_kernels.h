@@ -40,7 +40,7 @@ class WrittenKernels {
 
   // The longest tapes that get a kernel: of sums and the like, and of operators that take longer than a leaf. Measured
   // on lavapipe: beyond, sorting the points and pruning the tape gain more.
-  static constexpr std::size_t kMostInstructions = 64, kMostHeavyInstructions = 12;
+  static constexpr std::size_t kMostInstructions = 48, kMostHeavyInstructions = 12;
 
   // What a point takes of a kernel of such a tape, in instructions of sums and the like.
   static std::size_t work_of(const blobtree::Tape& tape);
