@@ -274,13 +274,14 @@ absl::Status FieldEvaluator::evaluate_unsorted(const ResidentScene& scene, std::
   ISOFIELD_ASSIGN_OR_RETURN(
       const gpu::Pipeline* kernel,
       kernels_.get(points_shader(quantity, false), tapes.kind(KernelKind::of(scene.tape()), window)));
-  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-  ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
-  ISOFIELD_RETURN_IF_ERROR(session.run());
+  bool is_uploaded = false;
   return evaluate_in_order(
       kSubmissionWork / length, xyz, quantity, out, cancelled, std::move(submission),
-      [&](Session& piece, const gpu::Commands::Bindings& own, std::uint32_t last, std::uint32_t groups) {
-        return piece.commands().dispatch(*kernel, tapes.bindings(window, own), std::array{last, begin, length}, groups);
+      [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last,
+          std::uint32_t groups) -> absl::Status {
+        if (!std::exchange(is_uploaded, true)) ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
+        return session.commands().dispatch(*kernel, tapes.bindings(window, own), std::array{last, begin, length},
+                                           groups);
       });
 }
 

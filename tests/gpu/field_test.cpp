@@ -7,6 +7,7 @@
 
 #include "blobtree/blend_edit.h"
 #include "blobtree/parameter_edit.h"
+#include "engine/evaluation_queue.h"
 #include "engine/field_evaluator.h"
 #include "gpu/gpu_environment.h"
 #include "reference/evaluator.h"
@@ -262,6 +263,21 @@ TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
       std::vector<float> some(4 * count);
       ASSERT_TRUE(fresh.evaluate(*lease, std::span(xyz).first(3 * count), Quantity::kValueAndGradient, some).ok());
       EXPECT_EQ(std::memcmp(first.data(), some.data(), sizeof(float) * some.size()), 0) << count;
+    }
+  }
+}
+
+// As the queue runs joined requests: whoever asked for a turn while it holds one would wait for ever.
+TEST(FieldOnDevice, AsksForNoTurnBesideTheOneItWasGiven) {
+  for (const int nodes : {1, 3, 80}) {
+    const engine::SceneLease lease = resident(test_support::random_scene(3, {.nodes = nodes, .all_operators = false}));
+    engine::FieldEvaluator fresh(device(), kernels(), workers());
+    constexpr std::size_t kCount = engine::EvaluationQueue::kJoinedPoints;
+    const std::vector<float> xyz = random_points(1, kCount, 2);
+    std::vector<float> out(4 * kCount);
+    for (int batch = 0; batch < 40; ++batch) {  // until an index would be worth its while
+      gpu::Turns::Turn turn = device().turns().take({});
+      ASSERT_TRUE(fresh.evaluate(*lease, xyz, Quantity::kValueAndGradient, out, {}, {{}, std::move(turn)}).ok());
     }
   }
 }
