@@ -16,12 +16,6 @@ layout(std430, binding = 12) buffer Kinds { uint kinds[]; };
 layout(std430, binding = 13) readonly buffer Samples { float samples[]; };  // of the slab that starts at brick `first`
 layout(std430, binding = 14) readonly buffer Placed { uint placed[]; };      // bricks, one a workgroup
 
-#ifdef SMOOTH
-const bool MAY_HAVE_CREASES = false;
-#else
-const bool MAY_HAVE_CREASES = true;
-#endif
-
 // A patch is taken to hold a crease where the mean of the squared sines between its normals and their mean is more:
 // creases that turn by about 25 degrees, and surfaces with a radius of up to 2.5 cells.
 const float CREASE_SPREAD = 0.04;

@@ -54,17 +54,13 @@ float cost(vec3 a, vec3 b, vec3 c, vec3 d, float crossing, bool knows_crossing) 
 // Whether a vertex of the quad lies in a brick that may have creases. What bricks without vertices may have is of no
 // importance to it.
 bool may_crease_around(Quad q) {
-#ifdef SMOOTH
-  return false;
-#else
-  if ((kinds[q.edge.brick] & KNOWS_CROSSINGS) == 0u) return false;
+  if (!MAY_HAVE_CREASES || (kinds[q.edge.brick] & KNOWS_CROSSINGS) == 0u) return false;
   bool may_crease = false;
   for (uint i = 0u; i < 4u; ++i) {
     CellRef c = cell_ref(q.edge.brick, quad_cell(q.edge.at, q.edge.axis, i & 1u, i >> 1u));
     may_crease = may_crease || (c.brick != NO_BRICK && (kinds[c.brick] & MAY_CREASE) != 0u);
   }
   return may_crease;
-#endif
 }
 
 void main() {

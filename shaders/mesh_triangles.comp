@@ -24,7 +24,8 @@ void main() {
   uint q = first + n;
   ListedQuad at = listed_quad(q);
   // Counter-clockwise about the axis as they stand: right when the surface faces along it.
-  uvec4 v = at.inside_low ? corners[q] : corners[q].xwzy;
+  uvec4 v = corners[q];
+  v = at.inside_low ? v : v.xwzy;
   uint cut = cuts[q] & 3u, fans = cuts[q] >> 2u;
   uint t = 2u * (n + fans - (cuts[first] >> 2u));
   if (cut != CUT_FAN) {

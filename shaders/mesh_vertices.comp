@@ -20,6 +20,12 @@ const int BISECTION_STEPS = 14;
 // In cells.
 const float CROWDED_REACH = 0.2;
 
+// A step of a cell's size at most along each axis.
+vec3 limited(vec3 step, float size) {
+  float longest = max(max(abs(step.x), abs(step.y)), abs(step.z));
+  return step * (longest > size ? size / longest : 1.0);
+}
+
 void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
@@ -57,19 +63,14 @@ void main() {
       a.d *= inward();
       float excess = inward() * a.f - iso;
       float slope2 = dot(a.d, a.d);
-      vec3 move = -excess / max(slope2, 1e-30) * a.d;
-      float far = max(max(abs(move.x), abs(move.y)), abs(move.z));
-      move *= far > size ? size / far : 1.0;
-      vec3 newton = p + move;
+      vec3 newton = p + limited(-excess / max(slope2, 1e-30) * a.d, size);
       // What the cell's faces hold back, the other coordinates make up for: one vertex in 70 of camel blends would wait
       // for the bisection otherwise, and its subgroup with it (this pass in 0.9 of the time).
       vec3 held = clamp(newton, least, most);
       bvec3 is_held = notEqual(held, newton);
       vec3 d_held = mix(vec3(0.0), a.d, is_held), d_free = a.d - d_held;
       vec3 along = -(excess + dot(d_held, held - p)) / max(dot(d_free, d_free), 1e-30) * d_free;
-      float most_along = max(max(abs(along.x), abs(along.y)), abs(along.z));
-      along *= most_along > size ? size / most_along : 1.0;
-      newton = clamp(mix(p + along, held, is_held), least, most);
+      newton = clamp(mix(p + limited(along, size), held, is_held), least, most);
       // Where the surface lies between the cell's face and the margin, the vertex can't come closer.
       vec3 moved = abs(newton - p);
       bool is_stuck = max(max(moved.x, moved.y), moved.z) <= tolerance * size;

@@ -42,12 +42,12 @@ struct Client::Impl {
   std::unique_ptr<v1::InfoService::Stub> infos;
   SharedMemoryPool shared_memory;
 
-  // Any number of points, in chunks.
   // Hands a batch's results to `sink` in their order; begins anew, with `restart`, where it is sent once more.
   absl::Status evaluate(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient,
                         const std::function<void()>& restart, const ResultSink& sink);
   absl::Status evaluate_message(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient,
                                 const ResultSink& sink);
+  // Any number of points, in chunks.
   absl::Status stream(const v1::SceneRef& scene, bool gradient, const ChunkSource& source, const ResultSink& sink);
   // For one evaluation; null: it takes the wire.
   std::unique_ptr<SharedMemory> take_shared_memory(std::size_t bytes);

@@ -16,10 +16,10 @@ inline void set_points(std::span<const float> xyz, v1::Tensor& tensor) {
   set_floats(xyz, 3, tensor);
 }
 
-// An array whose last dimension is `columns`, appended to `out`.
+// An array whose last dimension is `columns`, as it lies in the message.
 // INTERNAL: the type, the shape and the bytes do not fit each other or the expectation.
-// floats_of: the array as it lies in the message.
 absl::StatusOr<std::span<const float>> floats_of(const v1::Tensor& tensor, std::uint64_t columns);
+// The same, appended to `out`.
 absl::Status append_floats(const v1::Tensor& tensor, std::uint64_t columns, std::vector<float>& out);
 absl::Status append_indices(const v1::Tensor& tensor, std::uint64_t columns, std::vector<std::uint32_t>& out);
 absl::Status append_bytes(const v1::Tensor& tensor, std::uint64_t columns, std::vector<std::uint8_t>& out);

@@ -41,9 +41,11 @@ struct JobRun {
   bool waits;  // for the work so far
 };
 
-// `windows`: of each job's tape. After every kSubmissionWork the work so far is waited for.
-template <class Work>
-std::vector<JobRun> runs_of(std::span<const std::uint32_t> windows, const Work& work_of) {
+// Deals each dispatch's jobs out. `windows`: of each job's tape. After every kSubmissionWork the work so far is waited
+// for.
+template <class Job, class Work>
+std::vector<JobRun> runs_of(std::vector<Job>& jobs, std::span<const std::uint32_t> windows, const gpu::Device& device,
+                            const Work& work_of) {
   std::vector<JobRun> runs;
   std::uint64_t work = 0;
   for (std::size_t first = 0, end = 0; first < windows.size(); first = end) {
@@ -51,9 +53,10 @@ std::vector<JobRun> runs_of(std::span<const std::uint32_t> windows, const Work& 
     if (waits) work = 0;
     while (end < windows.size() && windows[end] == windows[first] && end - first < gpu::kMaxGroups &&
            (end == first || work < kSubmissionWork)) {
-      work += work_of(end++);
+      work += work_of(jobs[end++]);
     }
     runs.push_back({first, static_cast<std::uint32_t>(end - first), windows[first], waits});
+    deal(jobs, first, end, device.description().dispatch_runs);
   }
   return runs;
 }
@@ -67,11 +70,6 @@ absl::Status record_runs(Session& session, std::span<const JobRun> runs, const F
     ISOFIELD_RETURN_IF_ERROR(dispatch(run));
   }
   return absl::OkStatus();
-}
-
-template <class Job>
-void deal_runs(std::vector<Job>& jobs, std::span<const JobRun> runs, const gpu::Device& device) {
-  for (const JobRun& run : runs) deal(jobs, run.first, run.first + run.count, device.description().dispatch_runs);
 }
 
 // The whole tape's at all points, or pruned ones' at sorted points.
@@ -109,7 +107,8 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
       written_ ? written_->find(scene, quantity == Quantity::kValueAndGradient, count) : nullptr;
   if (written) return evaluate_written(*written, scene, xyz, quantity, out, cancelled, std::move(submission));
   if (!is_sorted(scene)) return evaluate_unsorted(scene, xyz, quantity, out, cancelled, std::move(submission));
-  ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, cancelled));
+  const bool may_make = !submission.turn;  // which takes a turn of its own
+  ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, may_make, cancelled));
   if (index) return evaluate_indexed(*index, scene, xyz, quantity, out, cancelled, std::move(submission));
   blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
   TapeWindows tapes(device_, scene, std::move(bins.code));
@@ -205,8 +204,7 @@ absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, co
     }
   }
   const std::vector<JobRun> runs =
-      runs_of(windows, [&](std::size_t i) { return std::uint64_t{jobs[i][1]} * points_per_job; });
-  deal_runs(jobs, runs, device_);
+      runs_of(jobs, windows, device_, [&](const PointJob& job) { return std::uint64_t{job[1]} * points_per_job; });
   const std::span sorted(reinterpret_cast<const float*>(piece.sorted.get()), 4 * count);
   Session& session = piece.session;
   ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer job_buffer, session.upload(std::span(jobs)));
@@ -275,14 +273,13 @@ absl::Status FieldEvaluator::evaluate_unsorted(const ResidentScene& scene, std::
       const gpu::Pipeline* kernel,
       kernels_.get(points_shader(quantity, false), tapes.kind(KernelKind::of(scene.tape()), window)));
   bool is_uploaded = false;
-  return evaluate_in_order(
-      kSubmissionWork / length, xyz, quantity, out, cancelled, std::move(submission),
-      [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last,
-          std::uint32_t groups) -> absl::Status {
-        if (!std::exchange(is_uploaded, true)) ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
-        return session.commands().dispatch(*kernel, tapes.bindings(window, own), std::array{last, begin, length},
-                                           groups);
-      });
+  return evaluate_in_order(kSubmissionWork / length, xyz, quantity, out, cancelled, std::move(submission),
+                           [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last,
+                               std::uint32_t groups) -> absl::Status {
+                             if (!std::exchange(is_uploaded, true)) ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
+                             return session.commands().dispatch(*kernel, tapes.bindings(window, own),
+                                                                std::array{last, begin, length}, groups);
+                           });
 }
 
 absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,
@@ -308,8 +305,8 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
   for (Brick& b : wanted) windows.push_back(tapes.add(b.tape_begin, b.tape_count));
   ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
   constexpr std::uint64_t kPoints = blobtree::kCellsPerBrick;
-  const std::vector<JobRun> runs = runs_of(windows, [&](std::size_t i) { return wanted[i].tape_count * kPoints; });
-  deal_runs(wanted, runs, device_);
+  const std::vector<JobRun> runs =
+      runs_of(wanted, windows, device_, [&](const Brick& b) { return b.tape_count * kPoints; });
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer brick_buffer, session.upload(std::span(wanted)));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.scratch(out.size_bytes()));
   session.commands().fill_zero(results);

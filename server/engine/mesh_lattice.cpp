@@ -27,16 +27,15 @@ using Within = std::optional<blobtree::BrickSet>;
 
 absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshRequest& request, const Within& within,
                                        const Lattice& lattice, std::uint64_t max_bricks,
-                                       const std::function<bool()>& cancelled, Workers* workers = nullptr) {
-  CullRequest cull{.lattice = lattice,
-                   .within = within,
-                   .keep = blobtree::Keep::kSurface,
-                   .iso = request.iso,
-                   .is_capped = request.bounds.has_value(),
-                   .max_bricks = max_bricks,
-                   .cancelled = cancelled};
-  if (workers) cull.for_each = workers->for_each();
-  return blobtree::cull(tape, cull);
+                                       const std::function<bool()>& cancelled, const blobtree::ForEach& for_each = {}) {
+  return blobtree::cull(tape, CullRequest{.lattice = lattice,
+                                          .within = within,
+                                          .keep = blobtree::Keep::kSurface,
+                                          .iso = request.iso,
+                                          .is_capped = request.bounds.has_value(),
+                                          .max_bricks = max_bricks,
+                                          .cancelled = cancelled,
+                                          .for_each = for_each});
 }
 
 // Bricks at this cell size, or max_bricks + 1 when there are more.
@@ -142,11 +141,12 @@ absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const Mes
 
 absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
                                              const std::optional<blobtree::BrickSet>& within, std::uint64_t max_bricks,
-                                             const std::function<bool()>& cancelled, Workers* workers) {
+                                             const std::function<bool()>& cancelled,
+                                             const blobtree::ForEach& for_each) {
   const auto find = [&]() -> absl::StatusOr<SurfaceBricks> {
     ISOFIELD_ASSIGN_OR_RETURN(Lattice lattice, mesh_lattice(tape, request));
     ISOFIELD_ASSIGN_OR_RETURN(BrickList list,
-                              cull_surface(tape, request, within, lattice, max_bricks, cancelled, workers));
+                              cull_surface(tape, request, within, lattice, max_bricks, cancelled, for_each));
     return SurfaceBricks{lattice, std::move(list)};
   };
   absl::StatusOr<SurfaceBricks> found = find();

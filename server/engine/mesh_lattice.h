@@ -8,7 +8,6 @@
 
 #include "blobtree/lattice.h"
 #include "engine/mesh_request.h"
-#include "engine/workers.h"
 
 namespace isofield::engine {
 
@@ -26,7 +25,7 @@ inline constexpr double kAutomaticCellsAlong = 200;
 inline constexpr std::uint64_t kAutomaticCells = 1u << 22;
 absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const MeshRequest& request);
 
-// The lattice with the bricks that the surface may cross, all or `within` some, found by the workers too.
+// The lattice with the bricks that the surface may cross, all or `within` some, found by `for_each`.
 // RESOURCE_EXHAUSTED beyond max_bricks, with the smallest cell size that fits.
 struct SurfaceBricks {
   blobtree::Lattice lattice;
@@ -34,7 +33,8 @@ struct SurfaceBricks {
 };
 absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
                                              const std::optional<blobtree::BrickSet>& within, std::uint64_t max_bricks,
-                                             const std::function<bool()>& cancelled, Workers* workers = nullptr);
+                                             const std::function<bool()>& cancelled,
+                                             const blobtree::ForEach& for_each = {});
 
 // For each brick the places of the twelve neighbours that shaders/lib/mesh_neighbours.glsl names, or ~0.
 inline constexpr std::size_t kNeighbours = 12;

@@ -185,10 +185,11 @@ class Run {
       quads += c[1];
       starts_.push_back({static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(quads)});
     }
-    const std::uint64_t most = device_.description().max_buffer_bytes / 12;
-    if (vertices > most || quads > most) {
+    // Of 12 bytes a vertex, and 16 a quad (QuadCutter).
+    const std::uint64_t most = device_.description().max_buffer_bytes;
+    if (12 * vertices > most || 16 * quads > most) {
       return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", request_.cell_size, " makes ", vertices,
-                                                       " vertices; this device holds ", most,
+                                                       " vertices; this device holds ", most / 16,
                                                        "; ask for a larger cell size, or a part by its bounds"));
     }
     return absl::OkStatus();

@@ -71,8 +71,8 @@ absl::StatusOr<SurfaceBricks> Mesher::find_bricks(const ResidentScene& scene, co
   // One binding holds a word for every cell.
   const std::uint64_t bound = device_.description().max_buffer_bytes / (4 * blobtree::kCellsPerBrick);
   const std::uint64_t most = std::min<std::uint64_t>({request.max_cells / blobtree::kCellsPerBrick, bound, 1u << 24});
-  ISOFIELD_ASSIGN_OR_RETURN(SurfaceBricks all,
-                            surface_bricks(scene.tape(), request, within, most, callbacks.cancelled, &workers_));
+  ISOFIELD_ASSIGN_OR_RETURN(
+      SurfaceBricks all, surface_bricks(scene.tape(), request, within, most, callbacks.cancelled, workers_.for_each()));
   std::stable_sort(all.list.bricks.begin(), all.list.bricks.end(),
                    [](const Brick& a, const Brick& b) { return a.z / kLayerBricks < b.z / kLayerBricks; });
   return all;

@@ -9,8 +9,7 @@ namespace {
 
 // Points asked of a scene before it is given an index: to sort as many without one takes as long as to make one.
 constexpr std::uint64_t kHotPoints = 1u << 19;
-// Batches beyond this wait for one to be made, some 30 ms. Joined ones hold the device's turn, and are no larger
-// (EvaluationQueue::kJoinedPoints).
+// Batches beyond this wait for one to be made, some 30 ms: others join it while it holds the device.
 constexpr std::uint64_t kLargeBatch = 1u << 14;
 // Bricks a point of a batch beyond which passing over them takes longer than sorting the batch by itself.
 constexpr std::uint64_t kBricksPerPoint = 4;
@@ -56,16 +55,15 @@ void PointIndexCache::trim() {
 }
 
 absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndexCache::find(gpu::Device& device, const ResidentScene& scene,
-                                                                        std::uint64_t points,
+                                                                        std::uint64_t points, bool may_make,
                                                                         const std::function<bool()>& cancelled) {
-  if (scene.tape().code.size() <= blobtree::kUnsortedInstructions) return nullptr;
   const auto fits = [&](const PointIndex& index) { return index.tapes().size() <= kBricksPerPoint * points; };
   {
     const std::lock_guard lock(mutex_);
     Entry& e = entry(scene);
     e.points += points;
     if (e.index) return fits(*e.index) ? e.index : nullptr;
-    if (e.is_tried || e.points < kHotPoints || points <= kLargeBatch) return nullptr;
+    if (!may_make || e.is_tried || e.points < kHotPoints || points <= kLargeBatch) return nullptr;
     e.is_tried = true;  // others go on without one meanwhile
   }
   absl::StatusOr<std::shared_ptr<const PointIndex>> made = PointIndex::make(device, scene, cancelled);

@@ -43,9 +43,11 @@ class PointIndex {
 class PointIndexCache {
  public:
   // Null: the batch had better be sorted by itself, since few points have been asked of the scene or are in the batch,
-  // or the scene has no index. `points`: how many are to be evaluated now.
+  // or the scene has no index. `points`: how many are to be evaluated now. `may_make`: false for those who hold a turn
+  // at the device.
   absl::StatusOr<std::shared_ptr<const PointIndex>> find(gpu::Device& device, const ResidentScene& scene,
-                                                         std::uint64_t points, const std::function<bool()>& cancelled);
+                                                         std::uint64_t points, bool may_make,
+                                                         const std::function<bool()>& cancelled);
 
  private:
   struct Entry {

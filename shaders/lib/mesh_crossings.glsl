@@ -28,6 +28,13 @@ Crossing crossing_of(uint b, uvec3 cell, uint edge) {
   return Crossing(vec3(low) + (len - 1.0) * vec3(axis_vector(axis)), v / len);
 }
 
+// SMOOTH: of the bricks that the kernel is about none may have creases.
+#ifdef SMOOTH
+const bool MAY_HAVE_CREASES = false;
+#else
+const bool MAY_HAVE_CREASES = true;
+#endif
+
 // What is known of a brick, as bits: server/engine/mesh_creases.h.
 const uint KNOWS_CROSSINGS = 1u;
 const uint MAY_CREASE = 2u;

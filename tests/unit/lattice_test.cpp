@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <cstdio>
 #include <cstring>
 #include <functional>
 #include <map>
 #include <set>
 #include <span>
-#include <thread>
 #include <tuple>
 
+#include "engine/workers.h"
 #include "reference/evaluator.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
@@ -184,15 +183,7 @@ TEST(Cull, LimitsAndCancellationAreObeyed) {
 
 // On threads the list is the same, brick by brick and instruction by instruction.
 TEST(Cull, ThreadsMakeTheSameList) {
-  const auto on_threads = [](std::size_t count, const std::function<void(std::size_t)>& work) {
-    std::atomic<std::size_t> next = 0;
-    const auto take = [&] {
-      for (std::size_t i = next++; i < count; i = next++) work(i);
-    };
-    std::thread other(take);
-    take();
-    other.join();
-  };
+  engine::Workers workers(1);
   const Lattice fine{{-2, -2, -2}, {0.02, 0.022, 0.024}, {201, 183, 170}};
   std::size_t shared = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -201,7 +192,7 @@ TEST(Cull, ThreadsMakeTheSameList) {
     const auto alone = cull(tape, request);
     request.for_each = [&](std::size_t count, const std::function<void(std::size_t)>& work) {
       shared += count;
-      on_threads(count, work);
+      workers.for_each(count, work);
     };
     const auto together = cull(tape, request);
     ASSERT_TRUE(alone.ok() && together.ok());
@@ -220,7 +211,7 @@ TEST(Cull, ThreadsMakeTheSameList) {
   EXPECT_GT(shared, 100u);
   CullRequest cancelled{.lattice = {{-2, -2, -2}, {0.001, 0.001, 0.001}, {4000, 4000, 4000}}};
   cancelled.cancelled = [] { return true; };
-  cancelled.for_each = on_threads;
+  cancelled.for_each = workers.for_each();
   const Tape tape = compile_or_die(read_or_die(test_support::random_scene(3, {.nodes = 60})));
   EXPECT_TRUE(absl::IsCancelled(cull(tape, cancelled).status()));
 }
