@@ -58,6 +58,28 @@ Affine::Stretch Affine::stretch() const {
   return {std::sqrt(std::max(least, 0.0)), std::sqrt(most)};
 }
 
+bool Affine::is_similarity(double tolerance) const {
+  const Stretch s = stretch();
+  return s.most - s.least <= tolerance * s.most;
+}
+
+Affine::LowerTriangle Affine::gradient_frame() const {
+  // Gram-Schmidt on the rows of A gives A = L Q with the rows of Q orthonormal, without squaring the condition number.
+  LowerTriangle l{};
+  std::array<dvec3, 3> q;
+  std::size_t at = 0;
+  for (int row = 0; row < 3; ++row) {
+    dvec3 rest = linear[row];
+    for (int k = 0; k < row; ++k) {
+      l[at] = dot(rest, q[k]);
+      rest = rest - q[k] * l[at++];
+    }
+    l[at] = length(rest);
+    q[row] = rest * (1 / l[at++]);
+  }
+  return l;
+}
+
 Affine Affine::rotation(const dvec3& axis, double angle) {
   const dvec3 u = axis * (1 / length(axis));
   const double c = std::cos(angle), s = std::sin(angle), t = 1 - c;

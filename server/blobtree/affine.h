@@ -24,6 +24,13 @@ struct Affine {
     double least, most;
   };
   Stretch stretch() const;
+  // Whether the linear part keeps angles (to about `tolerance` radians): it turns, mirrors and scales alike in all
+  // directions.
+  bool is_similarity(double tolerance) const;
+  // The lower triangle L, by rows, with L L^T = A A^T of the linear part A. A gradient g after the map is A^T g before
+  // it, so L^T g has the lengths and angles that the gradient has before the map.
+  using LowerTriangle = std::array<double, 6>;
+  LowerTriangle gradient_frame() const;
 
   static Affine translation(const dvec3& t) { return {.offset = t}; }
   static Affine scale(const dvec3& s) { return {{{{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}}}, {}}; }

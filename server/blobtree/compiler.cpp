@@ -25,6 +25,11 @@ bool is_conversion(const Node& node) {
 bool is_transparent(const Node& node) {
   return node.children.size() == 1 && !is_conversion(node);
 }
+
+// Transforms this close to a similarity change no angle by more than float32 does, for example a rotation whose matrix
+// was written with seven digits.
+constexpr double kSimilar = 5e-7;
+
 class Compiler {
  public:
   explicit Compiler(const Scene& scene) : scene_(scene) {}
@@ -37,6 +42,7 @@ class Compiler {
           kMaxStackDepth, "; write the deep children of operators with three and more children first"));
     }
     tape_.stack_depth = depth_[scene_.root];
+    has_frames_ = changes_angles();
     if (absl::Status s = emit_all(); !s.ok()) return s;
     return std::move(tape_);
   }
@@ -56,7 +62,7 @@ class Compiler {
     std::uint32_t operation = 0;  // operators of two or more children
     // How the node's value joins what is on the stack when it is complete.
     Join join;
-    double length = 0;  // largest range below
+    double length = 0;  // largest range below, in the unit of the node's own frame
     Bounds bounds;
     Bounds waiting;  // second_first: those of the second operand, until the first is there
   };
@@ -78,6 +84,18 @@ class Compiler {
     }
   }
 
+  // Whether a transform above some operator that follows an angle changes angles.
+  bool changes_angles() const {
+    std::vector<char> follows(scene_.nodes.size(), 0);
+    for (const std::uint32_t index : scene_.order) {
+      const Node& node = scene_.nodes[index];
+      follows[index] = node.op && node.op->follows_angle() && node.children.size() > 1;
+      for (const std::uint32_t child : node.children) follows[index] |= follows[child];
+      if (node.kind == NodeKind::kTransform && follows[index] && !node.frame.is_similarity(kSimilar)) return true;
+    }
+    return false;
+  }
+
   bool second_goes_first(const Node& node) const {
     if (node.children.size() < 2 || is_n_ary(node)) return false;
     const std::uint32_t first = node.children[0], second = node.children[1];
@@ -92,7 +110,7 @@ class Compiler {
     frame.join = join;
     const Node& n = scene_.nodes[node];
     frame.second_first = second_goes_first(n);
-    if (n.children.size() >= 2 || is_conversion(n)) frame.operation = add_operation(n, node);
+    if (n.children.size() >= 2 || is_conversion(n)) frame.operation = add_operation(n, node, maps_[to_world]);
     if (n.kind == NodeKind::kTransform) {
       maps_.push_back(maps_[to_world].after(n.frame));
       frame.to_world = static_cast<std::uint32_t>(maps_.size() - 1);
@@ -100,7 +118,7 @@ class Compiler {
     stack_.push_back(frame);
   }
 
-  std::uint32_t add_operation(const Node& node, std::uint32_t index) {
+  std::uint32_t add_operation(const Node& node, std::uint32_t index, const Affine& to_world) {
     Operation o;
     if (node.kind == NodeKind::kSoften) {
       o.op = Operator::kSoften;
@@ -112,6 +130,7 @@ class Compiler {
     } else {
       o = operation_of(node.op, node.law, static_cast<std::uint32_t>(node.children.size()), bounds_);
       tape_.arity = std::max(tape_.arity, o.operands);
+      if (has_frames_ && node.op->follows_angle()) o.frame = to_world.gradient_frame();
     }
     o.node = index;
     return blobtree::add_operation(tape_, std::move(o));
@@ -167,7 +186,7 @@ class Compiler {
     tape_.leaf_records += leaf_record_size(leaf->operand);
     emit(leaf->operand, frame.join, leaf->record, static_cast<std::uint32_t>(tape_.leaves.size()));
     if (leaf->law == Law::kSigned) tape_.operand_set |= kSignedLeaves;
-    frame.length = leaf->range / leaf->stretch;
+    frame.length = node.range;
     frame.bounds = {leaf->support, leaf->growth};
     tape_.leaves.push_back(*std::move(leaf));
     return absl::OkStatus();
@@ -187,18 +206,24 @@ class Compiler {
     Frame done = stack_.back();
     const Node& node = scene_.nodes[done.node];
     stack_.pop_back();
-    const double scale = node.kind == NodeKind::kSoften ? maps_[done.to_world].stretch().least : 1;
-    if (node.kind == NodeKind::kTransform) maps_.pop_back();
+    if (node.kind == NodeKind::kTransform) {
+      maps_.pop_back();
+      done.length *= node.frame.stretch().least;
+    }
     if (node.children.size() >= 2 || is_conversion(node)) {
       const Join own{tape_.operations[done.operation].op, done.operation, unary_mode(node)};
-      if (node.kind == NodeKind::kSoften) done.length = node.range * scale;
+      if (node.kind == NodeKind::kSoften) done.length = node.range;
       if (is_conversion(node)) {
         done.bounds = node.kind == NodeKind::kSoften ? softened(done.bounds, node.range) : hardened(done.bounds);
         emit(Operand::kZero, own);
       } else if (is_n_ary(node)) {
         emit(Operand::kZero, own, (1u << node.children.size()) - 1);
       }
-      tape_.operations[done.operation].length = done.length;
+      Operation& operation = tape_.operations[done.operation];
+      // Without frames all maps above are similarities: they scale alike in all directions.
+      if (operation.what && operation.what->follows_angle()) {
+        operation.length = done.length * (operation.frame ? 1 : maps_[done.to_world].stretch().most);
+      }
       // A transparent node's child, or a leaf, has joined already.
       if (done.join.op != Operator::kPush) emit(Operand::kPop, done.join);
     }
@@ -239,6 +264,7 @@ class Compiler {
   std::vector<char> leaf_like_;
   std::vector<Frame> stack_;
   std::vector<Affine> maps_;
+  bool has_frames_ = false;
   SilhouetteBounds bounds_;
 };
 

@@ -85,19 +85,20 @@ Operation operation_of(std::shared_ptr<const operators::Operator> op, Law law, s
 std::uint32_t operation_record_size(const Operation& operation) {
   switch (operation.op) {
     case Operator::kBt2:
-      return 3;
+      return operation.frame_size() + 3;
     case Operator::kSuperelliptic:
     case Operator::kBtk:
-      return 1 + operation.operands;
+      return operation.frame_size() + 1 + operation.operands;
     default:
-      return 1;
+      return operation.frame_size() + 1;
   }
 }
 
 std::uint32_t add_operation(Tape& tape, Operation operation) {
   const auto place = static_cast<std::uint32_t>(tape.operations.size());
-  operation.record = static_cast<std::uint32_t>(tape.record_owners.size());
-  tape.record_owners.resize(operation.record + operation_record_size(operation), place);
+  const std::size_t begin = tape.record_owners.size();
+  operation.record = static_cast<std::uint32_t>(begin) + operation.frame_size();
+  tape.record_owners.resize(begin + operation_record_size(operation), place);
   if (operation.op == Operator::kGradientVolume) operation.volume_slot = slot_of(tape, operation.what);
   tape.operations.push_back(std::move(operation));
   return place;
@@ -107,6 +108,7 @@ void add_sets(Tape& tape, const Operation& o, const Mode& mode) {
   tape.operator_set |= bit(o.op);
   if (mode.bits() != 0) tape.operator_set |= kModes;
   if (o.what && o.what->by_angle) tape.operator_set |= kByAngle;
+  if (o.frame) tape.operator_set |= kFramed;
   const bool is_positive_difference = mode.form == Form::kDifference && !mode.is_signed;
   if (o.op == Operator::kSubtract || is_positive_difference) {
     // Where the subtrahend is gone, the pruner clamps fields above 1 by subtracting 0.

@@ -140,6 +140,11 @@ class Layout {
 
  private:
   void write_operation(const Operation& o, Float4* out) {
+    if (o.frame) {
+      const Affine::LowerTriangle& l = *o.frame;
+      out[-2] = {f(l[0]), f(l[1]), f(l[2]), f(l[3])};
+      out[-1] = {f(l[4]), f(l[5]), 0, 0};
+    }
     switch (o.op) {
       case Operator::kLinear:
         out[0] = {f(o.factor), f(o.offset), 0, 0};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,7 @@ enum class Operator : std::uint32_t {
 inline constexpr std::uint32_t kSignedLeaves = 1u << 31;  // operand_set
 inline constexpr std::uint32_t kModes = 1u << 31;         // operator_set: some instruction has a mode
 inline constexpr std::uint32_t kByAngle = 1u << 30;       // operator_set: some range follows the angle of gradients
+inline constexpr std::uint32_t kFramed = 1u << 29;        // operator_set: angles are measured in Operation::frame
 
 // How an instruction applies its operator; bits 16 and up of its code.
 struct Mode {
@@ -130,8 +132,12 @@ struct Leaf {
 struct Operation {
   Operator op = Operator::kSum;
   std::shared_ptr<const operators::Operator> what;  // all but kLinear and kSoften
-  // Gradient blends: the largest range below; gradients are measured against 1 / length to tell whether they vanish.
+  // Gradient blends: the largest range below; gradients are measured against 1 / length to tell whether they vanish. In
+  // the unit of `frame` where there is one, else in the world's.
   double length = 1;
+  // Operators that follow an angle measure it in their node's own frame. Set in every such operator of a scene where a
+  // transform that is no similarity stands above one of them.
+  std::optional<Affine::LowerTriangle> frame;
   // Gradient blends: M(a, b) <= a + bound b.
   double silhouette_bound = 0;
   double factor = 1, offset = 0;  // kLinear
@@ -139,7 +145,10 @@ struct Operation {
   std::uint32_t volume_slot = 0;  // kGradientVolume
   std::uint32_t operands = 0;     // kSuperelliptic, kBtk
   std::uint32_t node = 0;         // in Scene::nodes
-  std::uint32_t record = 0;       // Instruction::operation: its first vec4
+  std::uint32_t record = 0;       // Instruction::operation: the vec4 after those of the frame
+  // Where all that the operator buffer holds of it begins.
+  std::uint32_t begin() const { return record - frame_size(); }
+  std::uint32_t frame_size() const { return frame ? 2 : 0; }
 };
 
 struct Tape {
@@ -164,8 +173,8 @@ struct Tape {
   std::pair<double, double> linear(const Instruction& i) const;
 };
 
-// vec4s of an operation's record; of kSuperelliptic and kBtk one more an operand, whose first two numbers are the
-// factor and offset of a kLinear.
+// How many vec4s the operator buffer holds of an operation, its frame included. kSuperelliptic and kBtk have one for each
+// operand, whose first two numbers are the factor and offset of a kLinear.
 std::uint32_t operation_record_size(const Operation& operation);
 
 // Named registers of the interpreter beside the accumulator.

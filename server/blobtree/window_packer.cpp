@@ -36,7 +36,7 @@ bool WindowPacker::fits(std::uint32_t begin, std::uint32_t count) {
     if (i.is_leaf() && !leaves_.has(i.leaf, window_)) leaves += leaf_record_size(i.operand());
     if (operations_.is_whole || i.op() == Operator::kPush) continue;
     const Operation& o = tape_.operation(i);
-    if (!operations_.has(o.record, window_)) operations += operation_record_size(o);
+    if (!operations_.has(o.begin(), window_)) operations += operation_record_size(o);
   }
   return leaves <= kWindowSize && operations <= kWindowSize;
 }
@@ -59,7 +59,7 @@ std::uint32_t WindowPacker::add(std::uint32_t& begin, std::uint32_t count) {
     if (i.is_leaf()) i.leaf = leaves_.take(i.leaf, leaf_record_size(i.operand()), window_);
     if (!operations_.is_whole && i.op() != Operator::kPush) {
       const Operation& o = tape_.operation(i);
-      i.operation += operations_.take(o.record, operation_record_size(o), window_) - o.record;
+      i.operation += operations_.take(o.begin(), operation_record_size(o), window_) - o.begin();
     }
     packed_.push_back(i);
   }

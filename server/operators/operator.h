@@ -102,6 +102,8 @@ struct Operator {
   const Term& term(std::size_t operand) const { return terms[terms.size() == 1 ? 0 : operand]; }
   // By the angle between two gradients, through an opening function.
   bool is_steered() const { return kind == Kind::kGradient || kind == Kind::kSampled; }
+  // Whether the angle between its operands' gradients changes the result.
+  bool follows_angle() const { return is_steered() || by_angle; }
   // Of all its operands at once, rather than folded over them.
   bool is_n_ary() const { return kind == Kind::kSuperelliptic || kind == Kind::kBtk; }
   // The form it is applied in: kDifference is one by itself.

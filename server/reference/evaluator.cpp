@@ -15,14 +15,9 @@ using blobtree::NodeKind;
 Primitive place(const Node& node, const Affine& to_world) {
   const Affine frame = to_world.after(node.frame);
   // The reader refuses singular transforms; a product of many may still underflow, to a primitive that is nowhere.
-  const std::optional<Affine> inverse = frame.inverse();
-  if (!inverse) return {node.shape, node.size, 0, node.law, Affine::scale({}), {}};
-  return {node.shape, node.size, node.range, node.law, {inverse->linear, {}}, frame.offset};
-}
-
-// The primitive's range in the world, along the direction in which its frame shrinks most.
-double world_range(const Node& node, const Affine& to_world) {
-  return node.range * to_world.after(node.frame).stretch().least;
+  const std::optional<Affine> inverse = frame.inverse(), own = node.frame.inverse();
+  if (!inverse || !own) return {node.shape, node.size, 0, node.law, Affine::scale({}), {}, {}};
+  return {node.shape, node.size, node.range, node.law, {inverse->linear, {}}, frame.offset, {own->linear, {}}};
 }
 
 }  // namespace
@@ -48,9 +43,15 @@ Evaluator::Evaluator(const blobtree::Scene& scene) : nodes_(scene.nodes) {
     if (node.kind == NodeKind::kPrimitive) {
       step.primitive = static_cast<std::uint32_t>(primitives_.size());
       primitives_.push_back(place(node, top.to_world));
-      top.length = world_range(node, top.to_world);
+      top.length = node.range;
     }
-    if (node.kind == NodeKind::kSoften) top.length = node.range * top.to_world.stretch().least;
+    if (node.kind == NodeKind::kSoften) top.length = node.range;
+    if (node.kind == NodeKind::kTransform) {
+      // A range counts along the direction in which the transform shrinks most.
+      top.length *= node.frame.stretch().least;
+      step.transform = static_cast<std::uint32_t>(inverses_.size());
+      inverses_.push_back(node.frame.inverse().value_or(Affine::scale({})));
+    }
     step.length = top.length;
     steps_.push_back(step);
     stack.pop_back();
@@ -75,6 +76,8 @@ FieldState Evaluator::state(const dvec3& point) const {
       stack[first] = soften(stack[first], node.range);
     } else if (node.kind == NodeKind::kHarden) {
       stack[first] = harden(stack[first]);
+    } else if (node.kind == NodeKind::kTransform) {
+      stack[first] = placed(stack[first], inverses_[step.transform]);
     } else if (step.children > 1) {
       const OperatorUse use{node.op.get(), node.law, step.length};
       stack[first] = combine(use, {stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end()});

@@ -1,5 +1,6 @@
 // The slow, obvious evaluator of a Blob-tree in double precision: the oracle of the tests, and a debugging mode. It
-// walks the scene itself, so that it checks the compiler as well as the device.
+// walks the scene itself, so that it checks the compiler as well as the device, and keeps every node's derivatives in the
+// node's own frame: a transform of f yields f(T^-1 p), whatever stands below.
 #pragma once
 
 #include <cstdint>
@@ -35,12 +36,14 @@ class Evaluator {
     std::uint32_t node;
     std::uint32_t children = 0;
     std::uint32_t primitive = 0;  // in primitives_
+    std::uint32_t transform = 0;  // in inverses_
     double length = 0;            // OperatorUse::length
   };
 
   std::vector<blobtree::Node> nodes_;
   std::vector<Step> steps_;
   std::vector<Primitive> primitives_;
+  std::vector<blobtree::Affine> inverses_;
 };
 
 }  // namespace isofield::reference

@@ -42,6 +42,14 @@ FieldState joined(const FieldState& a, const FieldState& b, const operators::Bin
   return {o.g, scaled(a.steering, o.g1) + scaled(b.steering, o.g2)};
 }
 
+// A steering vector as the node's frame sees it.
+DualVec3 in_frame(const OperatorUse& use, const DualVec3& v) {
+  if (!use.frame) return v;
+  const blobtree::Affine::LowerTriangle& l = *use.frame;
+  return {v.x * Dual(l[0]) + v.y * Dual(l[1]) + v.z * Dual(l[3]), v.y * Dual(l[2]) + v.z * Dual(l[4]),
+          v.z * Dual(l[5])};
+}
+
 // The opening angle with its derivatives: theta(alpha), drawn to theta_min where a steering vector vanishes
 // ([G] section 7). Drawn in tan(theta), which is what the operator uses.
 Dual opening_angle(const OperatorUse& use, const DualVec3& a, const DualVec3& b) {
@@ -75,7 +83,7 @@ operators::Blend steered_blend(const operators::Operator& op, double f1, double 
 }
 
 FieldState gradient_blend(const OperatorUse& use, const FieldState& a, const FieldState& b) {
-  const Dual theta = opening_angle(use, a.steering, b.steering);
+  const Dual theta = opening_angle(use, in_frame(use, a.steering), in_frame(use, b.steering));
   const operators::Blend g = steered_blend(*use.op, a.field.v, b.field.v, theta.v);
   const dvec3& f1 = a.field.d;
   const dvec3& f2 = b.field.d;
@@ -89,10 +97,11 @@ FieldState gradient_blend(const OperatorUse& use, const FieldState& a, const Fie
 struct Angle {
   Dual cosine, ratio;
 };
-Angle angle_between(const FieldState& a, const FieldState& b) {
-  const Dual n1 = dot(a.steering, a.steering), n2 = dot(b.steering, b.steering);
+Angle angle_between(const OperatorUse& use, const FieldState& a, const FieldState& b) {
+  const DualVec3 u = in_frame(use, a.steering), v = in_frame(use, b.steering);
+  const Dual n1 = dot(u, u), n2 = dot(v, v);
   if (std::min(n1.v, n2.v) <= 1e-24) return {0.0, 1.0};
-  Dual cosine = dot(a.steering, b.steering) / (sqrt(n1) * sqrt(n2));
+  Dual cosine = dot(u, v) / (sqrt(n1) * sqrt(n2));
   if (std::abs(cosine.v) >= 1) cosine = cosine.v > 0 ? 1.0 : -1.0;
   Dual ratio = sqrt(n1 / n2);
   constexpr double kMost = operators::kMostRatio;
@@ -100,12 +109,13 @@ Angle angle_between(const FieldState& a, const FieldState& b) {
   return {cosine, ratio};
 }
 
-FieldState bt2(const operators::Operator& op, const FieldState& a, const FieldState& b) {
+FieldState bt2(const OperatorUse& use, const FieldState& a, const FieldState& b) {
+  const operators::Operator& op = *use.op;
   const operators::Term &t1 = op.term(0), &t2 = op.term(1);
   operators::Reach<Dual> r1{t1.range, t1.weight}, r2{t2.range, t2.weight};
   Dual conic = op.conic;
   if (op.by_angle) {
-    const Angle angle = angle_between(a, b);
+    const Angle angle = angle_between(use, a, b);
     eliminate_bulge(r1, r2, angle.cosine, angle.ratio, op.omega);
     // The conic narrows with the ranges.
     conic = r1.range * r2.range * Dual(op.conic / (t1.range * t2.range));
@@ -148,7 +158,7 @@ FieldState unite(const OperatorUse& use, const FieldState& a, const FieldState& 
     case Kind::kFunctional:
       return joined(a, b, operators::functional_blend(a.field, b.field, op.curve));
     case Kind::kBt2:
-      return bt2(op, a, b);
+      return bt2(use, a, b);
     case Kind::kSuperelliptic:
     case Kind::kBtk:
       break;
@@ -168,7 +178,7 @@ FieldState unite_all(const OperatorUse& use, const std::vector<FieldState>& x) {
     fields.push_back(x[i].field);
   }
   if (op.by_angle) {
-    const Angle angle = angle_between(x[0], x[1]);
+    const Angle angle = angle_between(use, x[0], x[1]);
     eliminate_bulge(reach[0], reach[1], angle.cosine, angle.ratio, op.omega);
   }
   FieldState r;
@@ -208,7 +218,7 @@ FieldState evaluate_primitive(const Primitive& primitive, const dvec3& p) {
     j.d = {row.x, row.y, row.z};
     return j;
   };
-  const auto& rows = primitive.to_local.linear;
+  const auto& rows = primitive.to_shape.linear;
   const blobtree::Vec3<Jet> jets{seed(q.x, rows[0]), seed(q.y, rows[1]), seed(q.z, rows[2])};
   Jet f = blobtree::shape_distance(primitive.shape, jets, primitive.size);
   if (primitive.law == operators::Law::kPositive) f = blobtree::soften(f, primitive.range);
@@ -252,6 +262,18 @@ FieldState combine(const OperatorUse& use, const std::vector<FieldState>& operan
     r = clamped(use, complement(use, unite(use, first, second)));
   }
   return r;
+}
+
+FieldState placed(const FieldState& child, const blobtree::Affine& inverse) {
+  const auto& rows = inverse.linear;
+  // A derivative by the child's coordinates q = A^-1 p becomes one by p.
+  const auto by_p = [&](const dvec3& d) { return rows[0] * d.x + rows[1] * d.y + rows[2] * d.z; };
+  const auto moved = [&](const Dual& a) { return Dual(a.v, by_p(a.d)); };
+  const DualVec3 s{moved(child.steering.x), moved(child.steering.y), moved(child.steering.z)};
+  const auto component = [&](double x, double y, double z) { return s.x * Dual(x) + s.y * Dual(y) + s.z * Dual(z); };
+  return {moved(child.field),
+          {component(rows[0].x, rows[1].x, rows[2].x), component(rows[0].y, rows[1].y, rows[2].y),
+           component(rows[0].z, rows[1].z, rows[2].z)}};
 }
 
 FieldState soften(const FieldState& a, double range) {

@@ -15,18 +15,21 @@ Field apply_operator(Field acc, Field v, uint op, uint mode, uint record) {
     a = select_field(first, complement(first, mode), (mode & 3u) != FORM_UNION);
     b = select_field(second, complement(second, mode), (mode & 3u) == FORM_INTERSECTION);
   }
+  Field d1 = in_frame(a, record), d2 = in_frame(b, record);
   if (op != OPERATOR_PUSH) {
     Angle angle = no_angle();
-    if (may_follow_angle()) angle = angle_between(a, b);
+    if (may_follow_angle()) angle = angle_between(d1, d2);
     r = unite(a, b, op, record, angle);
   }
-  IF_OPERATOR(op, OPERATOR_GRADIENT) r = blend_by_gradient(a, b, operation_at(record), SMOOTH_SILHOUETTE, false);
+  IF_OPERATOR(op, OPERATOR_GRADIENT) {
+    r = blend_by_gradient(a, b, d1, d2, operation_at(record), SMOOTH_SILHOUETTE, false);
+  }
   IF_OPERATOR(op, OPERATOR_GRADIENT_TABLE) {
     uint silhouette = silhouette_half(floatBitsToUint(operation_at(record).y), a.f, b.f);
-    r = blend_by_gradient(a, b, operation_at(record), silhouette, false);
+    r = blend_by_gradient(a, b, d1, d2, operation_at(record), silhouette, false);
   }
   IF_OPERATOR(op, OPERATOR_GRADIENT_VOLUME) {
-    r = blend_by_gradient(a, b, operation_at(record), floatBitsToUint(operation_at(record).y), true);
+    r = blend_by_gradient(a, b, d1, d2, operation_at(record), floatBitsToUint(operation_at(record).y), true);
   }
   if (has_modes()) r = formed(r, first, second, mode);
   IF_OPERATOR(op, OPERATOR_LINEAR) r = linear(acc, operation_at(record).x, operation_at(record).y);
@@ -45,7 +48,7 @@ Field apply_to_many(Field x[MAX_OPERANDS], uint op, uint mask, uint mode, uint r
   uint form = mode & 3u;
   if (has_modes() && form != FORM_UNION) turn_operands(x, mask, form);
   Angle angle = no_angle();
-  if (may_follow_angle()) angle = angle_between(x[0], x[1]);
+  if (may_follow_angle()) angle = angle_between(in_frame(x[0], record), in_frame(x[1], record));
   Field r = x[0];
   IF_OPERATOR(op, OPERATOR_BTK) r = blend_btk(x, mask, record, angle);
   IF_OPERATOR(op, OPERATOR_SUPERELLIPTIC) r = blend_superelliptic(x, mask, record, angle);

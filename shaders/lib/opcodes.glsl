@@ -37,6 +37,7 @@ const uint OPERATOR_SOFTEN = 19u;
 const uint SIGNED_LEAVES = 1u << 31u;  // OPERAND_SET
 const uint MODES = 1u << 31u;          // OPERATOR_SET
 const uint BY_ANGLE = 1u << 30u;       // OPERATOR_SET
+const uint FRAMED = 1u << 29u;         // OPERATOR_SET
 
 // Modes of an instruction: Mode::bits().
 const uint FORM_UNION = 0u;
@@ -70,6 +71,8 @@ layout(constant_id = 6) const uint UNIFORM_SET = 0u;
 #define has_signed_leaves() ((OPERAND_SET & SIGNED_LEAVES) != 0u)
 // Whether a kernel's operators may follow an angle; one does whose omega is not negative.
 #define may_follow_angle() ((OPERATOR_SET & BY_ANGLE) != 0u)
+// Whether operators that follow an angle measure it in a frame of their own, which stands before their record.
+#define has_frames() ((OPERATOR_SET & FRAMED) != 0u)
 
 // Comparisons that the sets decide are dropped with their branches.
 bool is_operand(uint operand, uint candidate) {

@@ -120,6 +120,22 @@ Field formed(Field r, Field first, Field second, uint mode) {
   return select_field(r, turned, form != FORM_UNION);
 }
 
+// An operand's direction in the frame of the operator at `record`, with lengths and angles as they are before the
+// transforms above the operator: Affine::gradient_frame() of server/blobtree/affine.h. A record that has no frame before
+// it is that of an operator that follows no angle, and the result does not count.
+Field in_frame(Field a, uint record) {
+  if (has_frames()) {
+    uint at = max(record, 2u) - 2u;
+    vec4 l = operation_at(at), rest = operation_at(at + 1u);
+    mat3 to_frame = mat3(vec3(l.x, 0.0, 0.0), vec3(l.yz, 0.0), vec3(l.w, rest.xy));
+    a.d = to_frame * a.d;
+#ifdef WITH_GRADIENT
+    a.j = to_frame * a.j;
+#endif
+  }
+  return a;
+}
+
 // The cosine of the angle between two fields' directions, 0 where one vanishes, and |first| / |second|.
 struct Angle {
   Dual cosine, ratio;
@@ -289,14 +305,15 @@ vec2 gradient_presence(float n) {
   return vec2(s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / NULL_GRADIENT);
 }
 
-// [G] eqs. 15 to 24, steered by the angle between the operands' directions; the gradient is the whole of eq. 29.
+// [G] eqs. 15 to 24, steered by the angle between the operands' directions in the operator's frame, those of `u` and `v`;
+// the gradient is the whole of eq. 29.
 // `blend`: a silhouette for gradient_blend(), or with `is_volume` the slot of a volume and its size << 8; of a sampled
 // operator the operation's length is negative.
-Field blend_by_gradient(Field a, Field b, vec4 operation, uint blend, bool is_volume) {
+Field blend_by_gradient(Field a, Field b, Field u, Field v, vec4 operation, uint blend, bool is_volume) {
   uint opening = floatBitsToUint(operation.x);
   float t_min = operation.z;
   float h = abs(operation.w);
-  vec3 d1 = a.d * h, d2 = b.d * h;
+  vec3 d1 = u.d * h, d2 = v.d * h;
   float n1 = dot(d1, d1), n2 = dot(d2, d2);
   float inverse1 = inversesqrt(max(n1, 1e-12)), inverse2 = inversesqrt(max(n2, 1e-12));
   float cosine = clamp(dot(d1, d2) * inverse1 * inverse2, -1.0, 1.0);
@@ -314,8 +331,8 @@ Field blend_by_gradient(Field a, Field b, vec4 operation, uint blend, bool is_vo
   r.d = g.g1 * a.d + g.g2 * b.d;
 #ifdef WITH_GRADIENT
   // Gradient of t: through the angle, and through the presence of either gradient.
-  vec3 n1_v = 2.0 * h * (d1 * a.j), n2_v = 2.0 * h * (d2 * b.j);
-  vec3 cosine_v = h * inverse1 * inverse2 * (d2 * a.j + d1 * b.j) -
+  vec3 n1_v = 2.0 * h * (d1 * u.j), n2_v = 2.0 * h * (d2 * v.j);
+  vec3 cosine_v = h * inverse1 * inverse2 * (d2 * u.j + d1 * v.j) -
                   0.5 * cosine * (inverse1 * inverse1 * n1_v + inverse2 * inverse2 * n2_v);
   // Openings are flat at 0 and pi, where the angle has no gradient.
   float sine2 = 1.0 - cosine * cosine;

@@ -3,34 +3,16 @@
 Usage: python_client_test.py ISOFIELDD PROTOC PROTO_FOLDER
 """
 
-import pathlib
-import signal
-import subprocess
 import sys
-import tempfile
 
 import grpc
 import numpy as np
 
+from served import array, served
+
 CENTER = np.array([0.25, -0.5, 0.125])
 RADIUS, RANGE = 1.0, 0.5
 R0 = np.sqrt(1 - 2 ** (-1 / 3))
-
-
-def generate(protoc, protos, out):
-    """Makes modules of the .proto files, as a user does."""
-    files = sorted(pathlib.Path(protos).glob("isofield/v1/*.proto"))
-    subprocess.run([protoc, f"-I{protos}", f"--python_out={out}", f"--grpc_out={out}",
-                    "--plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin", *map(str, files)], check=True)
-    sys.path.insert(0, out)
-
-
-def start_daemon(isofieldd, address):
-    daemon = subprocess.Popen([isofieldd, "--listen", address, "--validation"], stderr=subprocess.PIPE, text=True)
-    for line in daemon.stderr:
-        if "listening on" in line:
-            return daemon
-    sys.exit(f"isofieldd does not start: exit code {daemon.wait()}")
 
 
 def field(points):
@@ -40,11 +22,6 @@ def field(points):
     r = np.clip(R0 + (1 - R0) * (distance - RADIUS) / RANGE, 0, 1)
     slope = np.where((r > 0) & (r < 1), -6 * r * (1 - r * r) ** 2 * (1 - R0) / RANGE, 0)
     return (1 - r * r) ** 3, slope[:, None] * offset / distance[:, None]
-
-
-def array(tensor):
-    dtype = {1: "<f4", 2: "<f8", 3: "<u4"}[tensor.dtype]
-    return np.frombuffer(tensor.data, dtype).reshape(tuple(tensor.shape))
 
 
 def check_evaluation(channel, reference):
@@ -102,28 +79,17 @@ def check_mesh(channel, reference):
 
 
 def main():
-    isofieldd, protoc, protos = sys.argv[1:]
-    with tempfile.TemporaryDirectory(prefix="isofield-") as folder:
-        generate(protoc, protos, folder)
+    with served(*sys.argv[1:]) as channel:
         from isofield.v1 import scene_pb2
         from isofield.v1 import scene_service_pb2 as scenes
         from isofield.v1 import scene_service_pb2_grpc as services
 
-        address = f"unix:{folder}/s"
-        daemon = start_daemon(isofieldd, address)
-        try:
-            with grpc.insecure_channel(address) as channel:
-                ball = scene_pb2.Node(name="ball", sphere=scene_pb2.Sphere(center=CENTER, radius=RADIUS, range=RANGE))
-                catalog = services.SceneServiceStub(channel)
-                catalog.PutScene(scenes.PutSceneRequest(name="ball", scene=scene_pb2.Scene(nodes=[ball])))
-                reference = scene_pb2.SceneRef(name="ball")
-                check_evaluation(channel, reference)
-                check_mesh(channel, reference)
-        finally:
-            daemon.send_signal(signal.SIGTERM)
-            _, log = daemon.communicate()
-    assert daemon.returncode == 0, f"exit code {daemon.returncode}\n{log}"
-    assert "Vulkan validation:" not in log, log
+        ball = scene_pb2.Node(name="ball", sphere=scene_pb2.Sphere(center=CENTER, radius=RADIUS, range=RANGE))
+        catalog = services.SceneServiceStub(channel)
+        catalog.PutScene(scenes.PutSceneRequest(name="ball", scene=scene_pb2.Scene(nodes=[ball])))
+        reference = scene_pb2.SceneRef(name="ball")
+        check_evaluation(channel, reference)
+        check_mesh(channel, reference)
 
 
 if __name__ == "__main__":

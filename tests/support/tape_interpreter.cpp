@@ -46,7 +46,8 @@ FieldState TapeInterpreter::leaf(const Instruction& i, const blobtree::dvec3& p)
   if (!i.is_leaf()) return {};  // Operand::kZero
   const blobtree::Leaf& leaf = tape_.leaves.at(i.index);
   const FieldState v =
-      reference::evaluate_primitive({leaf.shape, leaf.size, leaf.range, leaf.law, leaf.to_local, leaf.anchor}, p);
+      reference::evaluate_primitive({leaf.shape, leaf.size, leaf.range, leaf.law, leaf.to_local, leaf.anchor,
+                                     leaf.to_local}, p);
   return leaf.law == operators::Law::kSigned ? linear(v, leaf.per_distance, 0) : v;
 }
 
@@ -74,7 +75,8 @@ FieldState TapeInterpreter::evaluate(std::span<const Instruction> code, const bl
     }
     const operators::Operator op = operator_of(i, o);
     const bool is_signed = operators::law_of(op.kind) == operators::Law::kSigned || i.mode().is_signed;
-    const reference::OperatorUse use{&op, is_signed ? operators::Law::kSigned : operators::Law::kPositive, o.length};
+    const reference::OperatorUse use{&op, is_signed ? operators::Law::kSigned : operators::Law::kPositive, o.length,
+                                     o.frame};
     if (i.op() == Operator::kBtk || i.op() == Operator::kSuperelliptic) {
       std::vector<FieldState> operands{acc};
       while (operands.size() < static_cast<std::size_t>(std::popcount(i.leaf))) {

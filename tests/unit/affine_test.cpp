@@ -80,6 +80,30 @@ TEST(Affine, StretchOfKnownMaps) {
   EXPECT_NEAR(turned.stretch().least, 0.01, 1e-6);
 }
 
+TEST(Affine, GradientFrameKeepsTheLengthsAndAnglesBeforeTheMap) {
+  Random random(6);
+  for (int n = 0; n < 200; ++n) {
+    const Affine map{{random.point(-2, 2), random.point(-2, 2), random.point(-2, 2)}, {}};
+    const Affine::LowerTriangle l = map.gradient_frame();
+    const auto framed = [&](const dvec3& g) {
+      return dvec3{l[0] * g.x + l[1] * g.y + l[3] * g.z, l[2] * g.y + l[4] * g.z, l[5] * g.z};
+    };
+    const auto before = [&](const dvec3& g) {  // A^T g
+      return map.linear[0] * g.x + map.linear[1] * g.y + map.linear[2] * g.z;
+    };
+    const dvec3 g = random.point(-1, 1), other = random.point(-1, 1);
+    EXPECT_NEAR(dot(framed(g), framed(other)), dot(before(g), before(other)), 1e-12);
+    EXPECT_NEAR(length(framed(g)), length(before(g)), 1e-12);
+  }
+}
+
+TEST(Affine, SimilaritiesAreToldApart) {
+  const Affine turned = Affine::rotation({1, 2, 3}, 0.7);
+  EXPECT_TRUE(turned.after(Affine::scale({-2, 2, 2})).is_similarity(1e-12));
+  EXPECT_FALSE(turned.after(Affine::scale({1, 1, 1.001})).is_similarity(1e-4));
+  EXPECT_TRUE(turned.after(Affine::scale({1, 1, 1.00001})).is_similarity(1e-4));
+}
+
 TEST(Affine, RotationTurnsByTheRightHand) {
   expect_near(Affine::rotation({0, 0, 2}, std::numbers::pi / 2).point({1, 0, 0}), {0, 1, 0}, 1e-15);
   expect_near(Affine::rotation({3, 0, 0}, std::numbers::pi / 2).point({0, 1, 0}), {0, 0, 1}, 1e-15);

@@ -99,6 +99,35 @@ TEST(Compiler, DisjointIntersectionHasNoSupport) {
   EXPECT_TRUE(tape.support.empty());
 }
 
+// Two spheres joined as told, below a transform.
+Tape transformed(const std::string& join, const std::string& transform) {
+  return compile_or_die(read_or_die(scene_of_nodes(R"({"sphere": {"radius": 0.5, "range": 0.5}},
+    {"sphere": {"center": [0.5,0,0], "radius": 0.5, "range": 0.5}}, {)" +
+                                                   join + R"(: {"children": ["#0","#1"]}}, {"transform": {"child": "#2", )" +
+                                                   transform + "}}")));
+}
+
+TEST(Compiler, OnlyMapsThatChangeAnglesAboveBlendsThatFollowThemMakeFrames) {
+  const auto has_frames = [](const Tape& tape) {
+    EXPECT_EQ((tape.operator_set & kFramed) != 0, tape.operations[0].frame.has_value());
+    return tape.operations[0].frame.has_value();
+  };
+  EXPECT_TRUE(has_frames(transformed(R"("gradient")", R"("scale": [2,1,1])")));
+  EXPECT_TRUE(has_frames(transformed(R"("gradient")", R"("matrix": [1,0.1,0,0, 0,1,0,0, 0,0,1,0])")));
+  EXPECT_FALSE(has_frames(transformed(R"("gradient")", R"("scale": [2,2,-2], "rotation": [1,2,3,40])")));
+  EXPECT_FALSE(has_frames(transformed(R"("sum")", R"("scale": [2,1,1])")));
+  // A primitive that is scaled below the blend has its gradient as it is.
+  const Tape below = compile_or_die(read_or_die(scene_of_nodes(R"({"sphere": {"radius": 0.5, "range": 0.5}},
+    {"transform": {"child": "#0", "scale": [2,1,1]}}, {"gradient": {"children": ["#0","#1"]}})")));
+  EXPECT_FALSE(has_frames(below));
+}
+
+TEST(Compiler, NullGradientsAreMeasuredInTheUnitOfTheBlendsFrame) {
+  const auto length = [](const Tape& tape) { return tape.operations[0].length; };
+  EXPECT_DOUBLE_EQ(length(transformed(R"("gradient")", R"("scale": 3)")), 1.5);
+  EXPECT_DOUBLE_EQ(length(transformed(R"("gradient")", R"("scale": [3,1,1])")), 0.5);
+}
+
 // Full binary tree over 2^levels spheres.
 std::string full_tree(int levels) {
   std::string nodes;

@@ -58,8 +58,9 @@ void expect_same(const Tape& tape, const ParameterBuffers& whole, const Instruct
     same(packed.leaf, window.leaves, whole.leaves, original.leaf, leaf_record_size(original.operand()));
   }
   if (original.op() != Operator::kPush) {
-    same(packed.operation, window.operations, whole.operations, original.operation,
-         operation_record_size(tape.operation(original)));
+    const Operation& o = tape.operation(original);
+    same(packed.operation - o.frame_size(), window.operations, whole.operations, original.operation - o.frame_size(),
+         operation_record_size(o));
   }
 }
 
