@@ -56,7 +56,7 @@ Bounds reached(const operators::Operator& op, std::size_t operand, const Bounds&
     }
     case Kind::kFunctional: {
       const double reach = std::max(op.curve.most(), 0.0);
-      return {operand == 0 ? Box{} : b.within(reach), b.growth, b.limit - reach};
+      return {b.within(reach), b.growth, b.limit - reach};
     }
     case Kind::kSuperelliptic: {
       const double reach = op.term(operand).range * op.most_reach();
@@ -78,6 +78,10 @@ Bounds kept(const operators::Operator& op, std::size_t operand, const Bounds& b)
   switch (op.kind) {
     case Kind::kPasko:
       return {b.within(std::abs(op.a0)), b.growth, b.limit - std::abs(op.a0)};
+    case Kind::kFunctional: {
+      const double reach = std::max(-op.curve.least(), 0.0);
+      return {b.within(reach), b.growth, b.limit - reach};
+    }
     case Kind::kSuperelliptic: {
       const double range = op.term(operand).range * op.most_reach();
       return {b.box, b.growth * range, b.limit / range};

@@ -44,15 +44,31 @@ Interval pasko(const operators::Operator& op, const Interval& a, const Interval&
   return padded(r_union(a.lo, b.lo) + std::min(near, far), r_union(a.hi, b.hi) + std::max(near, far));
 }
 
+// |x1 - x2|.
+Interval apart(const Interval& a, const Interval& b) {
+  return {std::max({a.lo - b.hi, b.lo - a.hi, 0.0}), std::max(a.hi - b.lo, b.hi - a.lo)};
+}
+
 Interval functional(const operators::SampledCurve& h, const Interval& a, const Interval& b) {
-  // Monotone between control points.
-  double least = std::min(h.at(a.lo).v, h.at(a.hi).v), most = std::max(h.at(a.lo).v, h.at(a.hi).v);
+  // H is monotone between control points.
+  const Interval d = apart(a, b);
+  double least = std::min(h.at(d.lo).v, h.at(d.hi).v), most = std::max(h.at(d.lo).v, h.at(d.hi).v);
   for (std::size_t i = 0; i < h.x().size(); ++i) {
-    if (h.x()[i] <= a.lo || h.x()[i] >= a.hi) continue;
+    if (h.x()[i] <= d.lo || h.x()[i] >= d.hi) continue;
     least = std::min(least, h.y()[i]);
     most = std::max(most, h.y()[i]);
   }
-  return padded(b.lo - most, b.hi - least);
+  return padded(std::min(a.lo, b.lo) - most, std::min(a.hi, b.hi) - least);
+}
+
+// Of a functional blend: the operand, 0 or 1, that is the least by more than H reaches, or -1.
+int least_operand(const operators::SampledCurve& h, const Interval& a, const Interval& b) {
+  // A last control point that is not 0 moves the field however far apart the operands are.
+  if (h.y().back() != 0) return -1;
+  const double room = kValueRoom * (std::max({std::abs(a.lo), std::abs(a.hi), std::abs(b.lo), std::abs(b.hi)}) +
+                                    h.x().back());
+  const double reach = h.x().back() + room;
+  return b.lo - a.hi >= reach ? 0 : a.lo - b.hi >= reach ? 1 : -1;
 }
 
 Interval bt2(const Operation& o, const Interval& a, const Interval& b) {
@@ -229,6 +245,10 @@ int lone_operand(const Operation& o, const Mode& mode, Interval a, Interval b) {
   if (mode.is_exchanged) std::swap(a, b);
   if (mode.form != Form::kUnion) a = complement(a, true);
   if (mode.form == Form::kIntersection) b = complement(b, true);
+  if (o.op == Operator::kFunctional) {
+    const int least = least_operand(o.what->curve, a, b);
+    return least == 1 && mode.form == Form::kDifference ? -1 : least;
+  }
   const operators::Term &t1 = o.what->term(0), &t2 = o.what->term(1);
   // The bounds of the blending region, [H] section 3.
   const auto is_beyond = [](const Interval& x, const operators::Term& tx, const Interval& y,

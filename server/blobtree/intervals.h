@@ -29,7 +29,7 @@ Interval n_ary_interval(Operator op, const Operation& o, const Mode& mode, std::
 std::uint32_t active_operands(const Operation& o, const Mode& mode, std::uint32_t mask,
                               const std::vector<Interval>& operands);
 
-// The operand of a kBt2, 0 or 1, that alone makes its result, or -1. `a` and `b` as for binary_interval.
+// The operand of a kBt2 or kFunctional, 0 or 1, that alone makes its result, or -1. `a` and `b` as for binary_interval.
 int lone_operand(const Operation& o, const Mode& mode, Interval a, Interval b);
 
 }  // namespace isofield::blobtree

@@ -128,7 +128,6 @@ bool is_ordered(const operators::Operator& op) {
     case Kind::kBarthe:
     case Kind::kBernhardt:
     case Kind::kPasko:
-    case Kind::kFunctional:
     case Kind::kBt2:
       return true;
     case Kind::kGradient:

@@ -188,7 +188,10 @@ operators::SampledCurve read_control_points(const v1::FunctionalBlend& m, FieldR
   for (int i = 0; i < m.x_size(); ++i) {
     x.push_back(in.coordinate(at("x", i), m.x(i)));
     h.push_back(in.coordinate(at("h", i), m.h(i)));
-    if (i > 0 && !(x[i] > x[i - 1])) in.refuse(at("x", i), absl::StrCat(x[i]), absl::StrCat("more than ", x[i - 1]));
+    if (i == 0 && x[i] < 0) in.refuse(at("x", i), absl::StrCat(x[i]), "a number >= 0: H is a function of |f1 - f2|");
+    if (i > 0 && !(x[i] - x[i - 1] >= kMinLength)) {
+      in.refuse(at("x", i), absl::StrCat(x[i]), absl::StrCat("more than ", x[i - 1], ", by at least ", kMinLength));
+    }
   }
   if (!in.status().ok()) return {};
   return {std::move(x), std::move(h)};
@@ -316,7 +319,7 @@ std::optional<Operator> read_kind(const Message& m, FieldReader& in) {
     read_terms(m.superelliptic().ranges(), {}, {}, op, in);
     read_angle(m.superelliptic().by_angle(), m.superelliptic().omega(), op, in);
   } else if (m.has_functional()) {
-    op.kind = Kind::kFunctional;
+    classic(Kind::kFunctional, m.functional());
     op.curve = read_control_points(m.functional(), in);
   } else if (m.has_bt2()) {
     classic(Kind::kBt2, m.bt2());

@@ -176,8 +176,9 @@ class Layout {
         break;
       case Operator::kFunctional: {
         const operators::SampledCurve& h = o.what->curve;
-        const double low = h.x().front(), span = h.x().back() - low;
-        out[0] = {std::bit_cast<float>(tables_.curve(h)), f(low), f(operators::kCurveCells / span), 0};
+        const auto pieces = static_cast<std::uint32_t>(h.x().size() - 1);
+        out[0] = {std::bit_cast<float>(tables_.curve(h)), std::bit_cast<float>(pieces), f(h.x().back()),
+                  f(h.y().back())};
         break;
       }
       case Operator::kBt2:

@@ -74,11 +74,11 @@ void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vec
     if (op == Operator::kMin && (greater || less)) return less ? keep_left() : keep_right();
   }
   const Operation& o = tape_.operation(i);
-  if (op == Operator::kBt2) {
+  if (op == Operator::kBt2 || op == Operator::kFunctional) {
     const int alone = lone_operand(o, mode, left.range, right.range);
     if (alone >= 0) {
       (alone == 0) != mode.is_exchanged ? keep_left() : keep_right();
-      if (o.what->term(alone).weight != 1) {
+      if (op == Operator::kBt2 && o.what->term(alone).weight != 1) {
         convert(instruction(Operand::kZero, Operator::kLinear, 0, o.record + 1 + alone), out);
       }
       return;

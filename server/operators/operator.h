@@ -96,7 +96,7 @@ struct Operator {
   double conic = 0;               // kBt2: p
   bool by_angle = false;          // kSuperelliptic, kBt2, kBtk: ranges follow the angle between two gradients
   double omega = 0.01;            // by_angle
-  SampledCurve curve;             // kFunctional: H
+  SampledCurve curve;             // kFunctional: H, from x >= 0 on
   std::shared_ptr<const SampledVolume> samples;  // kSampled
 
   const Term& term(std::size_t operand) const { return terms[terms.size() == 1 ? 0 : operand]; }

@@ -73,8 +73,14 @@ ProfileTable opening_table(const Opening& opening) {
 }
 
 ProfileTable curve_table(const SampledCurve& curve) {
-  const double low = curve.x().front();
-  return tabulate(kCurveCells, curve.x().back() - low, [&](double x) { return curve.at(low + x); });
+  const std::vector<double>& x = curve.x();
+  ProfileTable table;
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    const double width = x[i + 1] - x[i];
+    table.push_back({static_cast<float>(x[i]), static_cast<float>(1 / width), 0, 0});
+    table.push_back(tabulate(1, width, [&](double at) { return curve.at(x[i] + at); })[0]);
+  }
+  return table;
 }
 
 double silhouette_bound(const Silhouette& silhouette) {

@@ -38,8 +38,8 @@ ProfileTable silhouette_table(const Silhouette& silhouette);
 // tan(theta(alpha)): the operator needs nothing else of theta.
 ProfileTable opening_table(const Opening& opening);
 
-// H of a functional blend over the range of its control points.
-inline constexpr int kCurveCells = 1024;
+// H of a functional blend: of each piece between two control points the record (x where it begins, 1 / its width, 0, 0),
+// then its cell. Pieces as they are, since their widths may differ by any factor.
 ProfileTable curve_table(const SampledCurve& curve);
 
 // The least c with q(u) <= 1 + c u on [0, 1]: M(a, b) <= a + c b bounds the operator from above.

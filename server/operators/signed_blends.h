@@ -43,11 +43,14 @@ inline double chain(double, double value, double) {
   return value;
 }
 
-// [G] eq. 6: x2 - H(x1).
+// [G] eq. 6: min(x1, x2) - H(|x1 - x2|). Where the fields are equal the partials are those of the side x1 < x2.
 template <class T>
 Binary<T> functional_blend(const T& x1, const T& x2, const SampledCurve& profile) {
-  const Curve h = profile.at(value_of(x1));
-  return {x2 - chain(x1, h.v, h.d1), T(0.0) - chain(x1, h.d1, h.d2), T(1.0)};
+  if (value_of(x2) < value_of(x1)) return exchanged(functional_blend(x2, x1, profile));
+  const T apart = x2 - x1;
+  const Curve h = profile.at(value_of(apart));
+  const T slope = chain(apart, h.d1, h.d2);
+  return {x1 - chain(apart, h.v, h.d1), T(1.0) + slope, T(0.0) - slope};
 }
 
 }  // namespace isofield::operators

@@ -126,8 +126,8 @@ FieldState bt2(const OperatorUse& use, const FieldState& a, const FieldState& b)
 // Unions of two operands in their order.
 FieldState unite(const OperatorUse& use, const FieldState& a, const FieldState& b) {
   const operators::Operator& op = *use.op;
-  // A positive field of 0 leaves the other untouched.
-  if (use.law == operators::Law::kPositive && op.kind != Kind::kMin) {
+  // A positive field of 0 leaves the other untouched. A maximum does so by itself, of fields of either law.
+  if (use.law == operators::Law::kPositive && op.kind != Kind::kMin && op.kind != Kind::kMax) {
     if (a.field.v <= 0) return b;
     if (b.field.v <= 0) return a;
   }

@@ -369,7 +369,7 @@ Field unite(Field a, Field b, uint op, uint record, Angle angle) {
     r = join_binary(a, b, pasko_blend(dual_of(a), dual_of(b), operation_at(record).xyz));
   }
   IF_OPERATOR(op, OPERATOR_FUNCTIONAL) {
-    r = join_binary(a, b, functional_blend(dual_of(a), dual_of(b), operation_at(record).xyz));
+    r = join_binary(a, b, functional_blend(dual_of(a), dual_of(b), operation_at(record)));
   }
   IF_OPERATOR(op, OPERATOR_BT2) r = blend_bt2(a, b, record, angle);
   return r;

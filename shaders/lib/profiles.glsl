@@ -10,7 +10,6 @@
 // Mirrors server/operators/profile_table.h.
 const int SILHOUETTE_CELLS = 512;
 const int OPENING_CELLS = 256;
-const int CURVE_CELLS = 1024;
 
 // Value, first and second derivative at a place counted in cells.
 vec3 profile(uint table, int cells, float x) {

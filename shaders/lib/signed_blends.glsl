@@ -45,13 +45,34 @@ Bracket superelliptic_bracket(Dual x, Dual range, float t) {
   return Bracket(select_dual(b.value, dual(0.0), is_out), select_dual(b.fall, dual(0.0), is_out));
 }
 
-// [G] eq. 6: x2 - H(x1). `curve`: its table, the first control point, cells per unit.
-Binary functional_blend(Dual x1, Dual x2, vec3 curve) {
-  float x = value_of(x1) - curve.y;
-  vec3 h = profile(floatBitsToUint(curve.x), CURVE_CELLS, x * curve.z) * vec3(1.0, curve.z, curve.z * curve.z);
-  bool is_beyond = x <= 0.0 || x * curve.z >= float(CURVE_CELLS);
-  h.yz = is_beyond ? vec2(0.0) : h.yz;
-  return Binary(x2 - chain(x1, h.x, h.y), -chain(x1, h.y, h.z), dual(1.0));
+// The curve through control points at x, with its first and second derivative. `curve`: its table, how many pieces it
+// has (at most 255), the last control point.
+vec3 control_curve(vec4 curve, float x) {
+  uint table = floatBitsToUint(curve.x), piece = 0u, above = floatBitsToUint(curve.y);
+  for (int step = 0; step < 8; ++step) {
+    uint middle = (piece + above) >> 1u;
+    bool is_above = tables[table + 2u * middle].x > x;
+    piece = is_above ? piece : middle;
+    above = is_above ? middle : above;
+  }
+  vec2 begin = tables[table + 2u * piece].xy;
+  vec4 c = tables[table + 2u * piece + 1u];
+  float s = clamp((x - begin.x) * begin.y, 0.0, 1.0);
+  vec3 h = vec3(c.x + s * (c.y + s * (c.z + s * c.w)), begin.y * (c.y + s * (2.0 * c.z + s * (3.0 * c.w))),
+                begin.y * begin.y * (2.0 * c.z + 6.0 * s * c.w));
+  // Constant beyond both ends; exactly what the last control point says, so that culling may rely on a 0 there.
+  bool is_above = x >= curve.z, is_below = piece == 0u && x <= begin.x;
+  return vec3(is_above ? curve.w : h.x, is_above || is_below ? vec2(0.0) : h.yz);
+}
+
+// [G] eq. 6: min(x1, x2) - H(|x1 - x2|).
+Binary functional_blend(Dual x1, Dual x2, vec4 curve) {
+  bool swap = value_of(x2) < value_of(x1);
+  Dual least = select_dual(x1, x2, swap), apart = select_dual(x2, x1, swap) - least;
+  vec3 h = control_curve(curve, value_of(apart));
+  Dual slope = chain(apart, h.y, h.z);
+  Binary r = Binary(least - chain(apart, h.x, h.y), dual(1.0) + slope, -slope);
+  return select_binary(r, exchanged(r), swap);
 }
 
 #endif

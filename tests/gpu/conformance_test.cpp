@@ -1,5 +1,7 @@
 // Every composition operator by itself, on the device and in double precision: the canonical definition of
 // server/operators as reference/ uses it against the kernels' mirror of it.
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_join.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,11 +11,13 @@
 #include <map>
 #include <numbers>
 
+#include "gpu/device_field.h"
 #include "gpu/operator_cases.h"
 #include "operators/gradient_blend.h"
 #include "support/finite_difference.h"
 #include "support/paper_scene.h"
 #include "support/random_scene.h"
+#include "support/scene_text.h"
 #include "support/shared_files.h"
 
 namespace isofield::gpu_test {
@@ -227,6 +231,27 @@ TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
     EXPECT_LE(differences.exact(), 1e-4);
     EXPECT_LE(differences.device(), 1e-4);
     EXPECT_LE(differences.left_out(), 0.2);
+  }
+}
+
+// Where one piece of the curve ends and the next begins, and before the first and beyond the last.
+TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
+  Operator op = of_kind(Kind::kFunctional);
+  op.curve = operators::SampledCurve({0.125, 0.25, 0.2500001, 0.5, 1}, {0.5, 0.4, 0.3999999, 0.2, 0.0625});
+  std::vector<float> rows;
+  for (const float x : {0.0f, 0.125f, 0.25f, 0.2500001f, 0.5f, 1.0f, 2.0f}) {
+    for (const float at : {std::nextafter(x, -1.0f), x, std::nextafter(x, 3.0f)}) {
+      rows.insert(rows.end(), {0, at, at, 0, 0, -at});
+    }
+  }
+  const std::vector<float> results = on_device({"functional", op}, rows);
+  for (std::size_t i = 0; 2 * i < rows.size(); ++i) {
+    const float x1 = rows[2 * i], x2 = rows[2 * i + 1];
+    const FieldState e = exact(op, {x1, x2});
+    EXPECT_NEAR(results[3 * i], e.field.v, 3e-7) << x1 << ", " << x2;
+    if (std::abs(std::abs(x1 - x2) - 0.25f) < 1e-6f) continue;  // the slope turns within an ulp
+    EXPECT_NEAR(results[3 * i + 1], e.field.d.x, 1e-5) << x1 << ", " << x2;
+    EXPECT_NEAR(results[3 * i + 2], e.field.d.y, 1e-5) << x1 << ", " << x2;
   }
 }
 

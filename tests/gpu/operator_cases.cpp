@@ -63,6 +63,12 @@ std::vector<Case> cases() {
     op.a1 = 0.7;
     op.a2 = 1.2;
     add("pasko", op);
+    op = of_kind(Kind::kFunctional);
+    op.curve = operators::SampledCurve({0.0, 0.2, 0.5, 1.1}, {0.5, 0.4, 0.1, 0.0});
+    add("functional", op);
+    // Control points close together, the first beyond 0, and a last one that is not 0.
+    op.curve = operators::SampledCurve({0.1, 0.1005, 0.4, 0.9}, {0.3, 0.2998, 0.2, 0.25});
+    add("functional of uneven points", op);
     op = of_kind(Kind::kSuperelliptic);
     op.exponent = 2.5;
     op.terms = {{0.8, 2, 1}, {1.1, 2, 1}};
@@ -89,9 +95,6 @@ std::vector<Case> cases() {
     op.by_angle = true;
     add("btk by angle", op, 2, 2e-5);
   }
-  op = of_kind(Kind::kFunctional);
-  op.curve = operators::SampledCurve({-0.5, 0.0, 0.3, 0.9}, {0.8, 0.5, 0.1, 0.0});
-  all.push_back({"functional", op});
   return all;
 }
 

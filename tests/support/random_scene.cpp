@@ -179,8 +179,9 @@ class SceneMaker {
       case 2: {
         v1::FunctionalBlend& f = *node.mutable_functional();
         const double h = random_.number(0.05, 0.3);
-        for (const double x : {-0.3, 0.0, 0.2, 0.5}) f.add_x(x + random_.number(0, 0.1));
+        for (const double x : {0.0, 0.15, 0.3, 0.6}) f.add_x(x + random_.number(0, 0.1));
         for (const double y : {2.0, 1.0, 0.3, 0.0}) f.add_h(h * y);
+        f.set_form(form());
         break;
       }
       case 3:

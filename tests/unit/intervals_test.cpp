@@ -6,6 +6,7 @@
 
 #include "blobtree/operation.h"
 #include "operators/gradient_blend.h"
+#include "operators/signed_blends.h"
 #include "support/random_scene.h"
 
 namespace isofield::blobtree {
@@ -55,6 +56,54 @@ TEST(Intervals, OfSmoothGradientBlendsAreReached) {
     EXPECT_NEAR(binary_interval(o.op, o, {}, {0, high}, {0, ratio * high}).hi, most, 1e-4) << ratio;
     EXPECT_NEAR(binary_interval(o.op, o, {}, {0, ratio * high}, {0, high}).hi, most, 1e-4) << ratio;
   }
+}
+
+Operation functional_of(std::vector<double> x, std::vector<double> h) {
+  auto op = std::make_shared<operators::Operator>();
+  op->kind = operators::Kind::kFunctional;
+  op->curve = operators::SampledCurve(std::move(x), std::move(h));
+  SilhouetteBounds bounds;
+  return operation_of(std::move(op), operators::Law::kSigned, 2, bounds);
+}
+
+TEST(Intervals, OfFunctionalBlendsHold) {
+  Random random(3);
+  const Operation operations[] = {functional_of({0, 0.2, 0.5}, {0.3, 0.2, 0}), functional_of({0.1, 0.4}, {-0.2, 0.3}),
+                                  functional_of({0, 0.3, 0.6, 0.9}, {0, 0.5, -0.5, 0.1})};
+  for (const Operation& o : operations) {
+    for (int n = 0; n < 2000; ++n) {
+      const auto interval = [&] {
+        const double lo = random.number(-1.5, 1.5);
+        return Interval{lo, lo + random.number(0, 0.6)};
+      };
+      const Interval a = interval(), b = interval(), g = binary_interval(o.op, o, {}, a, b);
+      const int alone = lone_operand(o, {}, a, b);
+      for (int i = 0; i < 8; ++i) {
+        const double f1 = random.number(a.lo, a.hi), f2 = random.number(b.lo, b.hi);
+        const auto r = operators::functional_blend(f1, f2, o.what->curve);
+        ASSERT_GE(r.g, g.lo) << f1 << " " << f2;
+        ASSERT_LE(r.g, g.hi) << f1 << " " << f2;
+        if (alone >= 0) {
+          ASSERT_EQ(r.g, alone == 0 ? f1 : f2);
+          ASSERT_EQ(r.g1, alone == 0 ? 1 : 0);
+        }
+      }
+    }
+  }
+}
+
+TEST(Intervals, AFunctionalBlendIsOneOperandWhereItsCurveHasEndedWith0) {
+  const Operation o = functional_of({0, 0.5}, {0.3, 0}), lifted = functional_of({0, 0.5}, {0.3, 0.1});
+  const Interval low{-0.2, 0}, high{0.51, 2};
+  EXPECT_EQ(lone_operand(o, {}, low, high), 0);
+  EXPECT_EQ(lone_operand(o, {}, high, low), 1);
+  EXPECT_EQ(lone_operand(o, {}, low, {0.49, 2}), -1);
+  EXPECT_EQ(lone_operand(lifted, {}, low, high), -1);
+  const Mode intersection{operators::Form::kIntersection, true, false};
+  const Mode difference{operators::Form::kDifference, true, false};
+  EXPECT_EQ(lone_operand(o, intersection, low, high), 1);
+  EXPECT_EQ(lone_operand(o, difference, {-0.2, 0}, {-3, -2}), -1);  // the subtrahend alone is no result
+  EXPECT_EQ(lone_operand(o, difference, {1, 1.2}, {0, 2}), 0);
 }
 
 }  // namespace

@@ -114,6 +114,16 @@ TEST(OperatorReader, ControlPointsNameTheOneThatIsWrong) {
   f.set_x(1, 1);
   f.set_h(1, std::nan(""));
   expect_refused(message, {"h[1] = nan", "finite"});
+  f.set_h(1, 0);
+  f.set_x(0, -0.5);
+  expect_refused(message, {"x[0] = -0.5", "a number >= 0", "|f1 - f2|"});
+  f.set_x(0, 1 - 1e-12);
+  expect_refused(message, {"x[1] = 1", "by at least 1e-09"});
+  f.set_x(0, 0);
+  f.set_form(v1::DIFFERENCE);
+  const auto op = read_operator(message);
+  ASSERT_TRUE(op.ok()) << op.status();
+  EXPECT_EQ((*op)->form, operators::Form::kDifference);
 }
 
 TEST(OperatorReader, RangedBlendsNameTheTermThatIsWrong) {

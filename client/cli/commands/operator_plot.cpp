@@ -54,6 +54,7 @@ bool has_boundary(const v1::Operator& message) {
     case v1::Operator::kClean:
     case v1::Operator::kBarthe:
     case v1::Operator::kBernhardt:
+    case v1::Operator::kFunctional:
     case v1::Operator::kSuperelliptic:
     case v1::Operator::kBt2:
     case v1::Operator::kBtk:
