@@ -161,9 +161,15 @@ Interval binary_interval(Operator op, const Operation& o, const Mode& mode, Inte
     if (!mode.is_signed) c = {std::max(c.lo, 0.0), std::max(c.hi, 0.0)};
     return c;
   };
+  const Interval first = a, second = b;
   a = inside_out(a);
   if (mode.form == Form::kIntersection) b = inside_out(b);
   Interval r = inside_out(union_interval(op, o, a, b));
+  if (mode.form == Form::kIntersection && !mode.is_signed) {
+    // Of fields above 1, the least.
+    if (std::min(first.lo, second.lo) >= 1) r.lo = std::min(first.lo, second.lo);
+    if (std::min(first.hi, second.hi) >= 1) r.hi = std::min(first.hi, second.hi);
+  }
   // The complements round, too.
   return {mode.is_signed ? r.lo : std::max(r.lo - kValueRoom, 0.0), r.hi <= 0 ? r.hi : r.hi + kValueRoom};
 }

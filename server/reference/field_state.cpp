@@ -255,8 +255,13 @@ FieldState combine(const OperatorUse& use, const std::vector<FieldState>& operan
         continue;
       }
       if (form == Form::kDifference && b.field.v <= 0 && r.field.v < 1) continue;
+      // The union of complements is the greatest of them where one is not positive.
+      if (form == Form::kIntersection && r.field.v >= 1 && b.field.v >= 1) {
+        r = minimum(r, b);
+        continue;
+      }
     }
-    // Clamped: the complement of a field above 1 is as good as 0.
+    // Clamped: beside a complement that is positive, one that is not is as good as 0.
     const FieldState first = clamped(use, complement(use, r));
     const FieldState second = form == Form::kIntersection ? clamped(use, complement(use, b)) : b;
     r = clamped(use, complement(use, unite(use, first, second)));

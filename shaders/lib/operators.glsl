@@ -97,8 +97,8 @@ Field softened(Field a, float slope) {
   return b;
 }
 
-// What a form makes of its operands before the union of them, and of that after: modes of opcodes.glsl. A positive field
-// above 1 is as good as 1.
+// What a form makes of its operands before the union of them, and of that after: modes of opcodes.glsl. Beside a positive
+// complement, one that is negative is as good as 0.
 Field complement(Field a, uint mode) {
   bool is_signed = (mode & MODE_SIGNED) != 0u;
   Field c = linear(a, -1.0, is_signed ? 0.0 : 1.0);
@@ -115,6 +115,9 @@ Field formed(Field r, Field first, Field second, uint mode) {
     bool is_zero = turned.f <= 0.0 || first.f <= 0.0 || (is_intersection && second.f <= 0.0);
     bool is_first = !is_intersection && second.f <= 0.0 && first.f < 1.0;
     turned = select_field(turned, first, is_first);
+    // The union of complements is the greatest of them where one is not positive.
+    bool is_least = is_intersection && min(first.f, second.f) >= 1.0;
+    turned = select_field(turned, select_field(first, second, second.f < first.f), is_least);
     turned = select_field(turned, zero_field(), is_zero);
   }
   return select_field(r, turned, form != FORM_UNION);

@@ -255,6 +255,135 @@ TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
   }
 }
 
+// Every operator of positive fields that has a form, as an intersection.
+std::vector<Case> positive_intersections() {
+  std::vector<Case> all;
+  for (const Case& c : cases()) {
+    if (operators::law_of(c.op.kind) == Law::kPositive && c.op.form == operators::Form::kIntersection) all.push_back(c);
+  }
+  using operators::Silhouette;
+  Operator op = of_kind(Kind::kGradient);
+  op.form = operators::Form::kIntersection;
+  all.push_back({"gradient", op});
+  op.volume = 32;
+  all.push_back({"gradient of a volume", op, 2, 2e-2});
+  op.volume = 0;
+  op.silhouette = {Silhouette::Kind::kBulge, 0.6};
+  all.push_back({"bulge", op});
+  op.silhouette = {Silhouette::Kind::kSampled, 0,
+                   operators::SampledCurve::even(0, std::numbers::pi / 2, {1, 1.05, 1.2, 1.02, 1})};
+  all.push_back({"sampled silhouette", op, 2, 1e-4});
+  op.kind = Kind::kSampled;
+  auto samples = std::make_shared<operators::SampledVolume>();
+  samples->size = 5;
+  for (int i = 0; i < 125; ++i) samples->values.push_back(std::hypot(i % 5 / 4.0f, i / 5 % 5 / 4.0f));
+  op.samples = samples;
+  all.push_back({"sampled", op});
+  return all;
+}
+
+// The union of complements is the greatest of them where one is not positive.
+TEST(Conformance, IntersectionsOfPositiveFieldsAboveOneAreTheLeast) {
+  const float fields[] = {0.3f, 0.7f, 1, 1.27f, 1.5f, 4, 1e6f};
+  for (Case c : positive_intersections()) {
+    SCOPED_TRACE(c.name);
+    std::vector<float> rows;
+    for (const float f1 : fields) {
+      for (const float f2 : fields) {
+        rows.insert(rows.end(), {f1, f2});
+        if (c.op.is_steered()) rows.push_back(0.3f);
+      }
+    }
+    const std::size_t columns = c.op.is_steered() ? 3 : 2;
+    const std::vector<float> intersections = on_device(c, rows);
+    c.op.form = operators::Form::kDifference;
+    const std::vector<float> differences = on_device(c, rows);
+    for (std::size_t row = 0; row * columns < rows.size(); ++row) {
+      const float f1 = rows[row * columns], f2 = rows[row * columns + 1];
+      SCOPED_TRACE(testing::Message() << f1 << ", " << f2);
+      const float *i = &intersections[row * (columns + 1)], *d = &differences[row * (columns + 1)];
+      if (f1 >= 1 && f2 >= 1) {
+        EXPECT_EQ(i[0], std::min(f1, f2));
+        EXPECT_EQ(i[1], f1 <= f2 ? 1 : 0);
+        EXPECT_EQ(i[2], f1 <= f2 ? 0 : 1);
+      } else if (f1 >= 1 || f2 >= 1) {
+        EXPECT_NEAR(i[0], std::min(f1, f2), 1e-7);
+        EXPECT_EQ(i[1], f1 <= f2 ? 1 : 0);
+        EXPECT_EQ(i[2], f1 <= f2 ? 0 : 1);
+      }
+      // The first less the second is the intersection with 1 - f2, which is never above 1.
+      if (f2 >= 1) {
+        EXPECT_EQ(d[0], 0);
+        EXPECT_EQ(d[1], 0);
+        EXPECT_EQ(d[2], 0);
+      } else if (f1 >= 1) {
+        EXPECT_NEAR(d[0], 1 - f2, 1e-7);
+        EXPECT_EQ(d[1], 0);
+        EXPECT_EQ(d[2], -1);
+      }
+      if (c.op.is_steered()) {
+        if (f1 >= 1 || f2 >= 1) {
+          EXPECT_EQ(i[3], 0);
+          EXPECT_EQ(d[3], 0);
+        }
+        continue;
+      }
+      EXPECT_NEAR(d[0], exact(c.op, {f1, f2}).field.v, c.tolerance);
+    }
+  }
+}
+
+// Three sums that are above 1 where the spheres overlap, folded.
+TEST(Conformance, FoldedIntersectionsOfSumsAreTheReferences) {
+  std::string nodes;
+  std::vector<std::string> sums;
+  for (int i = 0; i < 3; ++i) {
+    const auto ball = [&](double x) {
+      return absl::StrCat(R"({"sphere": {"center": [)", x, ", ", 0.1 * i, R"(, 0], "radius": 0.5, "range": 0.6}},)");
+    };
+    absl::StrAppend(&nodes, ball(0.15 * i), ball(0.1 + 0.15 * i), R"({"name": "sum)", i,
+                    R"(", "sum": {"children": ["#)", 3 * i, R"(", "#)", 3 * i + 1, R"("]}},)");
+    sums.push_back(absl::StrCat("sum", i));
+  }
+  std::vector<blobtree::dvec3> points;
+  test_support::Random random(8);
+  for (int i = 0; i < 800; ++i) points.push_back(rounded_to_float(random.point(-0.5, 0.8)));
+  std::vector<reference::Evaluator> exact_sums;
+  for (const std::string& sum : sums) {
+    v1::Scene scene = test_support::scene_of_nodes("[" + nodes + R"({"max": {"children": ["sum0"]}}])");
+    scene.set_root(sum);
+    exact_sums.emplace_back(test_support::read_or_die(scene));
+  }
+  for (const char* kind : {"clean", "gradient"}) {
+    for (const char* form : {"INTERSECTION", "DIFFERENCE"}) {
+      SCOPED_TRACE(testing::Message() << kind << " " << form);
+      const v1::Scene scene =
+          test_support::scene_of_nodes(absl::StrCat("[", nodes, "{\"", kind, R"(": {"children": [")",
+                                                    absl::StrJoin(sums, "\", \""), R"("], "form": ")", form, "\"}}]"));
+      const reference::Evaluator exact(test_support::read_or_die(scene));
+      const std::vector<reference::Sample> device = DeviceField(scene).samples(points);
+      int above = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const reference::Sample s = exact.evaluate(points[i]);
+        EXPECT_NEAR(device[i].value, s.value, 2e-5);
+        std::vector<reference::Sample> fields;
+        for (const reference::Evaluator& sum : exact_sums) fields.push_back(sum.evaluate(points[i]));
+        const auto least = std::min_element(fields.begin(), fields.end(),
+                                            [](const auto& a, const auto& b) { return a.value < b.value; });
+        if (least->value < 1.001) continue;
+        ++above;
+        if (std::string(form) == "DIFFERENCE") {
+          EXPECT_EQ(device[i].value, 0);
+          continue;
+        }
+        EXPECT_NEAR(device[i].value, least->value, 1e-6);
+        EXPECT_LE(length(device[i].gradient - least->gradient), 1e-5);
+      }
+      EXPECT_GT(above, 40);
+    }
+  }
+}
+
 void expect_golden(const std::string& file, std::size_t operands,
                    const std::function<Operator(const std::vector<double>&)>& make) {
   ISOFIELD_NEEDS_SHARED("golden/" + file);

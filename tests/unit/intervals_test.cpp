@@ -106,5 +106,27 @@ TEST(Intervals, AFunctionalBlendIsOneOperandWhereItsCurveHasEndedWith0) {
   EXPECT_EQ(lone_operand(o, difference, {1, 1.2}, {0, 2}), 0);
 }
 
+// Positive fields above 1, as sums have them.
+TEST(Intervals, OfIntersectionsOfFieldsAboveOneHold) {
+  Random random(5);
+  const Mode mode{operators::Form::kIntersection, false, false};
+  const Operation o = blend_of({});
+  for (int n = 0; n < 3000; ++n) {
+    const auto interval = [&] {
+      const double lo = random.number(0, 1.8);
+      return Interval{lo, lo + random.number(0, 0.8)};
+    };
+    const Interval a = interval(), b = interval(), g = binary_interval(o.op, o, mode, a, b);
+    for (int i = 0; i < 6; ++i) {
+      const double f1 = i == 0 ? a.hi : random.number(a.lo, a.hi), f2 = i == 0 ? b.hi : random.number(b.lo, b.hi);
+      const double least = std::min(f1, f2);
+      const double union_of = operators::gradient_blend(std::max(1 - f1, 0.0), std::max(1 - f2, 0.0), 0.3, {}).g;
+      const double value = least >= 1 ? least : std::max(1 - union_of, 0.0);
+      ASSERT_GE(value, g.lo) << f1 << " " << f2;
+      ASSERT_LE(value, g.hi) << f1 << " " << f2;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace isofield::blobtree

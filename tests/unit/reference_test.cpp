@@ -201,6 +201,34 @@ TEST(Reference, NaryOperatorsFoldInOrder) {
   }
 }
 
+// Sums are above 1. The union of complements is the greatest of them where one is not positive.
+TEST(Reference, IntersectionsOfFieldsAboveOneAreTheLeast) {
+  for (const std::string kind : {"clean", "gradient", "barthe", "bernhardt"}) {
+    SCOPED_TRACE(kind);
+    // Of 2 w, 3 w and 2.5 w of the same sphere.
+    const std::string sums = R"({"sphere": {"radius": 0.5, "range": 0.8}}, {"sum": {"children": ["#0", "#0"]}},
+      {"sum": {"children": ["#0", "#0", "#0"]}}, {"sphere": {"center": [0.1, 0, 0], "radius": 0.5, "range": 0.8}},
+      {"sum": {"children": ["#0", "#0", "#3"]}}, )";
+    const auto of = [&](const char* form, const char* children) {
+      return evaluator_of(sums + "{\"" + kind + "\": {\"form\": \"" + form + "\", \"children\": " + children + "}}");
+    };
+    const Evaluator one = evaluator_of(R"({"sphere": {"radius": 0.5, "range": 0.8}})");
+    const Evaluator both = of("INTERSECTION", R"(["#2", "#1"])"), three = of("INTERSECTION", R"(["#2", "#4", "#1"])"),
+                    less = of("DIFFERENCE", R"(["#2", "#0"])");
+    for (const double x : {-0.1, -0.25, -0.4, -0.49}) {
+      const Sample s = one.evaluate({x, 0, 0});
+      ASSERT_GT(s.value, 0.5);
+      for (const Evaluator* e : {&both, &three}) {
+        EXPECT_DOUBLE_EQ(e->value({x, 0, 0}), 2 * s.value);
+        EXPECT_NEAR(e->evaluate({x, 0, 0}).gradient.x, 2 * s.gradient.x, 1e-12);
+      }
+      // The complement of the first is negative: the maximum is the second.
+      EXPECT_DOUBLE_EQ(less.value({x, 0, 0}), 1 - s.value);
+      EXPECT_DOUBLE_EQ(less.evaluate({x, 0, 0}).gradient.x, -s.gradient.x);
+    }
+  }
+}
+
 TEST(Reference, TransformsMoveTheField) {
   const std::string box = R"({"box": {"half_size": [0.5,0.3,0.2], "rounding": 0.1, "range": 0.4}}, )";
   const Evaluator plain = evaluator_of(box + R"({"max": {"children": ["#0"]}})");
