@@ -76,11 +76,11 @@ Interval bt2(const Operation& o, const Interval& a, const Interval& b) {
   const operators::Term &t1 = op.term(0), &t2 = op.term(1);
   const auto at = [&](double x, double y, double reach) {
     return operators::bt2<double>(x, y, {t1.range * reach, t1.weight}, {t2.range * reach, t2.weight},
-                                  op.conic * reach * reach)
+                                  op.tightness())
         .g;
   };
   const double reach = o.what->most_reach();
-  // Wider ranges, and a conic that is wider with them, add material.
+  // Wider ranges add material.
   const double lo = reach == 1 ? at(a.lo, b.lo, 1)
                                : std::min(a.lo / t1.weight, b.lo / t2.weight) -
                                      reach * std::max(t1.range / t1.weight, t2.range / t2.weight);

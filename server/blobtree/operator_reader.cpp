@@ -19,6 +19,9 @@ constexpr double kRadians = kPi / 180;
 constexpr int kLeastSamples = 3, kMostSamples = 4096;
 constexpr int kMostControlPoints = 256;
 constexpr int kMostVolume = 128;
+// What 1 - p / (r1 r2) of a conic may be. It degenerates at p = r1 r2; where p = -1e14 r^2 it is nowhere further than
+// 7e-8 r from the union.
+constexpr double kLeastTightness = 1e-9, kMostTightness = 1e14;
 
 std::string at(absl::string_view field, int i) {
   return absl::StrCat(field, "[", i, "]");
@@ -258,9 +261,10 @@ void read_bt2(const v1::Bt2& m, Operator& op, FieldReader& in) {
   };
   const double r1 = in.positive("r1", m.r1()), r2 = in.positive("r2", m.r2());
   op.terms = {{r1, 2, weight("m1", m.has_m1(), m.m1())}, {r2, 2, weight("m2", m.has_m2(), m.m2())}};
-  // The quadric degenerates at p = r1 r2, and is the union long before -10 r1 r2.
-  op.conic = in.number("p", m.p(), -10 * r1 * r2, 0.9999 * r1 * r2,
-                       absl::StrCat("a number below r1 r2 = ", r1 * r2, ", and at least -10 times that"));
+  op.conic = in.number("p", m.p(), -kMostTightness * r1 * r2, (1 - kLeastTightness) * r1 * r2,
+                       absl::StrCat("a number below r1 r2 = ", r1 * r2, " by at least ", kLeastTightness,
+                                    " of it, and at least ", -kMostTightness,
+                                    " times it: float32 does not tell blends beyond from the union"));
   read_angle(m.eliminate_bulge(), m.omega(), op, in);
 }
 

@@ -182,7 +182,7 @@ class Layout {
         break;
       }
       case Operator::kBt2:
-        out[0] = {f(o.what->term(0).range), f(o.what->term(1).range), f(o.what->conic), omega(o)};
+        out[0] = {f(o.what->term(0).range), f(o.what->term(1).range), f(o.what->tightness()), omega(o)};
         for (std::uint32_t i = 0; i < 2; ++i) {
           const double weight = o.what->term(i).weight;
           out[1 + i] = {f(1 / weight), 0, f(weight), 0};

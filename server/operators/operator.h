@@ -106,6 +106,8 @@ struct Operator {
   bool follows_angle() const { return is_steered() || by_angle; }
   // Of all its operands at once, rather than folded over them.
   bool is_n_ary() const { return kind == Kind::kSuperelliptic || kind == Kind::kBtk; }
+  // kBt2: 1 - p / (r1 r2), positive: 1 is the circle or ellipse, and large the union.
+  double tightness() const { return 1 - conic / (term(0).range * term(1).range); }
   // The form it is applied in: kDifference is one by itself.
   Form applied_form() const { return kind == Kind::kDifference ? Form::kDifference : form; }
   // Ranges that follow an angle lie between omega and so many times the range that is stated.

@@ -16,28 +16,34 @@ struct Reach {
   T range, weight;
 };
 
-// [H] eq. 4, p < r1 r2. Written from the left end of the bracket that the paper gives, h = low + delta, where the
-// quadratic has c < 0 < b and delta a stable form; the operands there, y_i, are positive just in the blending region
-// II.
+// [H] eq. 4 in a form without cancellation. With X_i = x_i / m_i and R_i = r_i / m_i it is the blend of weights 1; of p
+// it needs only the tightness 1 - p / (r1 r2), so that a conic keeps its shape where the ranges follow an angle. The
+// result depends on where X1 - X2 lies between -R2 and R1, beyond which one operand makes it alone: at s within ]0, 1[.
+// There q1 + q2 = 1, off = q1 - q2, and rho is the root of the quadratic's discriminant over what it is at p = r1 r2.
 template <class T>
-Binary<T> bt2(const T& x1, const T& x2, const Reach<T>& reach1, const Reach<T>& reach2, const T& p) {
+Binary<T> bt2(const T& x1, const T& x2, const Reach<T>& reach1, const Reach<T>& reach2, double tightness) {
   using std::sqrt;
-  const T &r1 = reach1.range, &r2 = reach2.range, &m1 = reach1.weight, &m2 = reach2.weight;
-  const T spread = r1 * m2 + r2 * m1;
-  const T lead = m2 * x1 - m1 * x2;
-  const T y1 = r1 * (lead + m1 * r2) / spread, y2 = r2 * (m2 * r1 - lead) / spread;
-  const T i1 = T(1.0) / m1, i2 = T(1.0) / m2;
-  if (value_of(y1) <= 0) return {x1 * i1, i1, T(0.0)};
-  if (value_of(y2) <= 0) return {x2 * i2, T(0.0), i2};
-  const T low = (r1 * x2 + r2 * x1 - r1 * r2) / spread;
-  const T k = r1 * r2 - p;
-  const T b = T(2.0) * k * (m1 * y2 + m2 * y1);
-  const T a = spread * spread - T(2.0) * k * m1 * m2;
-  const T slope = sqrt(b * b + T(8.0) * a * k * y1 * y2);  // W_h at the root
-  const T delta = T(4.0) * k * y1 * y2 / (b + slope);
-  const T common = T(2.0) * spread * delta;
-  return {low + delta, (common * r2 + T(2.0) * k * (y2 - m2 * delta)) / slope,
-          (common * r1 + T(2.0) * k * (y1 - m1 * delta)) / slope};
+  const T i1 = T(1.0) / reach1.weight, i2 = T(1.0) / reach2.weight;
+  const T X1 = x1 * i1, X2 = x2 * i2;
+  const T R1 = reach1.range * i1, R2 = reach2.range * i2;
+  const T per_length = T(1.0) / (R1 + R2);
+  const T share1 = R1 * per_length, share2 = R2 * per_length;
+  const T apart = (X1 - X2) * per_length;
+  const T s1 = share2 + apart, s2 = share1 - apart;  // s and 1 - s
+  if (value_of(s1) <= 0) return {X1, i1, T(0.0)};
+  if (value_of(s2) <= 0) return {X2, T(0.0), i2};
+  const T per_whole = T(1.0) / (share2 * s2 + share1 * s1);
+  const T part1 = s1 * per_whole, part2 = s2 * per_whole;
+  const T q1 = share2 * part2, q2 = share1 * part1, off = T(0.0) - apart * per_whole;
+  const T bend(2 / tightness), product = bend * part1 * part2;
+  const T rho = sqrt(off * off + product);
+  // rho + off and rho - off, the lesser of them by their product.
+  const T greater = rho + (value_of(off) < 0 ? T(0.0) - off : off), lesser = product / greater;
+  const T &above = value_of(off) < 0 ? lesser : greater, &below = value_of(off) < 0 ? greater : lesser;
+  const T per_root = T(1.0) / (T(1.0) + rho), scale = per_root / rho;
+  // Below either operand by what is the same; from the lesser one, whose part is the smaller.
+  const T g = value_of(apart) < 0 ? X1 - R1 * s1 * below * per_root : X2 - R2 * s2 * above * per_root;
+  return {g, q1 * (bend * part1 + above) * scale * i1, q2 * (bend * part2 + below) * scale * i2};
 }
 
 // [H] eq. 5: the root h of sum_i [(r_i - x_i + m_i h) / r_i]_+^p_i = 1. The sum is convex and increasing in h and at

@@ -113,14 +113,11 @@ FieldState bt2(const OperatorUse& use, const FieldState& a, const FieldState& b)
   const operators::Operator& op = *use.op;
   const operators::Term &t1 = op.term(0), &t2 = op.term(1);
   operators::Reach<Dual> r1{t1.range, t1.weight}, r2{t2.range, t2.weight};
-  Dual conic = op.conic;
   if (op.by_angle) {
     const Angle angle = angle_between(use, a, b);
     eliminate_bulge(r1, r2, angle.cosine, angle.ratio, op.omega);
-    // The conic narrows with the ranges.
-    conic = r1.range * r2.range * Dual(op.conic / (t1.range * t2.range));
   }
-  return joined(a, b, operators::bt2(a.field, b.field, r1, r2, conic));
+  return joined(a, b, operators::bt2(a.field, b.field, r1, r2, op.tightness()));
 }
 
 // Unions of two operands in their order.

@@ -170,11 +170,9 @@ Field blend_bt2(Field a, Field b, uint record, Angle angle) {
   vec2 inverse_weights = vec2(w1.x, w2.x);
   if (may_follow_angle() && head.w >= 0.0) {
     eliminate_bulge(reach, angle.cosine, angle.ratio, head.w);
-    // The conic narrows with the ranges.
-    Dual narrowed = times(reach.r1, reach.r2) * (head.z / (head.x * head.y));
-    return join_binary(a, b, bt2(dual_of(a), dual_of(b), reach, narrowed, vec2(0.0)));
+    inverse_weights = vec2(0.0);
   }
-  return join_binary(a, b, bt2(dual_of(a), dual_of(b), reach, dual(head.z), inverse_weights));
+  return join_binary(a, b, bt2(dual_of(a), dual_of(b), reach, head.z, inverse_weights));
 }
 
 // N-ary operators take the operands whose bits `mask` has, the last one first: x[0] belongs to the highest bit. What is

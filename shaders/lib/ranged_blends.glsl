@@ -10,34 +10,38 @@ struct Reach2 {
   Dual r1, r2, m1, m2;
 };
 
-// [H] eq. 4 from the left end of its bracket. Where one operand alone makes the result it is x_i / m_i to the bit, as it
-// is where culling has dropped the other.
-Binary bt2(Dual x1, Dual x2, Reach2 reach, Dual p, vec2 inverse_weights) {
-  Dual r1 = reach.r1, r2 = reach.r2, m1 = reach.m1, m2 = reach.m2;
-  Dual spread = times(r1, m2) + times(r2, m1);
-  Dual inverse_spread = reciprocal(spread);
-  Dual lead = times(m2, x1) - times(m1, x2);
-  Dual y1 = times(times(r1, lead + times(m1, r2)), inverse_spread);
-  Dual y2 = times(times(r2, times(m2, r1) - lead), inverse_spread);
-  bool first = value_of(y1) <= 0.0, second = value_of(y2) <= 0.0;
-  y1 = select_dual(y1, dual(1.0), first);
-  y2 = select_dual(y2, dual(1.0), second);
-  Dual low = times(times(r1, x2) + times(r2, x1) - times(r1, r2), inverse_spread);
-  Dual k = times(r1, r2) - p;
-  Dual yy = times(y1, y2);
-  Dual b = 2.0 * times(k, times(m1, y2) + times(m2, y1));
-  Dual a = times(spread, spread) - 2.0 * times(k, times(m1, m2));
-  Dual slope = square_root(times(b, b) + 8.0 * times(times(a, k), yy));
-  Dual delta = 4.0 * over(times(k, yy), b + slope);
-  Dual inverse = reciprocal(slope);
-  Dual both = 2.0 * times(spread, delta);
-  Binary r = Binary(low + delta, times(times(both, r2) + 2.0 * times(k, y2 - times(m2, delta)), inverse),
-                    times(times(both, r1) + 2.0 * times(k, y1 - times(m1, delta)), inverse));
+// [H] eq. 4 as server/operators/ranged_blends.h has it. Where one operand alone makes the result it is x_i / m_i to the
+// bit, as it is where culling has dropped the other.
+Binary bt2(Dual x1, Dual x2, Reach2 reach, float tightness, vec2 inverse_weights) {
   // Weights that follow the gradients are divided by; constant ones have their inverse.
-  Dual i1 = inverse_weights.x > 0.0 ? dual(inverse_weights.x) : reciprocal(m1);
-  Dual i2 = inverse_weights.y > 0.0 ? dual(inverse_weights.y) : reciprocal(m2);
-  r = select_binary(r, Binary(times(x2, i2), dual(0.0), i2), second);
-  return select_binary(r, Binary(times(x1, i1), i1, dual(0.0)), first);
+  Dual i1 = inverse_weights.x > 0.0 ? dual(inverse_weights.x) : reciprocal(reach.m1);
+  Dual i2 = inverse_weights.y > 0.0 ? dual(inverse_weights.y) : reciprocal(reach.m2);
+  x1 = times(x1, i1);
+  x2 = times(x2, i2);
+  Dual r1 = times(reach.r1, i1), r2 = times(reach.r2, i2);
+  Dual per_length = reciprocal(r1 + r2);
+  Dual share1 = times(r1, per_length), share2 = times(r2, per_length);
+  Dual apart = times(x1 - x2, per_length);
+  Dual s1 = share2 + apart, s2 = share1 - apart;
+  bool first = value_of(s1) <= 0.0, second = value_of(s2) <= 0.0;
+  apart = select_dual(apart, dual(0.0), first || second);
+  s1 = select_dual(s1, dual(0.5), first || second);
+  s2 = select_dual(s2, dual(0.5), first || second);
+  Dual per_whole = reciprocal(times(share2, s2) + times(share1, s1));
+  Dual part1 = times(s1, per_whole), part2 = times(s2, per_whole), off = -times(apart, per_whole);
+  float bend = 2.0 / tightness;
+  Dual product = bend * times(part1, part2);
+  Dual rho = square_root(times(off, off) + product);
+  bool is_below = value_of(off) < 0.0;
+  Dual greater = rho + select_dual(off, -off, is_below), lesser = over(product, greater);
+  Dual above = select_dual(greater, lesser, is_below), below = select_dual(lesser, greater, is_below);
+  Dual per_root = reciprocal(dual(1.0) + rho), scale = over(per_root, rho);
+  Dual g1 = x1 - times(times(r1, s1), times(below, per_root)), g2 = x2 - times(times(r2, s2), times(above, per_root));
+  Binary r = Binary(select_dual(g2, g1, value_of(apart) < 0.0),
+                    times(times(times(share2, part2), bend * part1 + above), times(scale, i1)),
+                    times(times(times(share1, part1), bend * part2 + below), times(scale, i2)));
+  r = select_binary(r, Binary(x2, dual(0.0), i2), second);
+  return select_binary(r, Binary(x1, i1, dual(0.0)), first);
 }
 
 // One operand of a btk: its field, 1 / m, the power and the range. One that is absent has a range of 0.

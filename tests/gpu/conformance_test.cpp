@@ -410,6 +410,37 @@ void expect_golden(const std::string& file, std::size_t operands,
   EXPECT_LE(worst, 1e-5);
 }
 
+// From next to the straight cut to next to the union.
+TEST(Conformance, ConicsOfAnyTightnessAreTheSameOnTheDevice) {
+  test_support::Random random(19);
+  for (const double below : {1e-9, 1e-4, 1.0, 11.0, 1e3, 1e5, 1e8, 1e11, 1e14}) {  // 1 - p / (r1 r2)
+    Operator op = of_kind(Kind::kBt2);
+    op.terms = {{1, 2, 1}, {1.5, 2, 1}};
+    op.conic = 1.5 * (1 - below);
+    std::vector<float> rows;
+    for (int i = 0; i < 3000; ++i) {
+      const double x1 = random.number(-1.5, 1.5), x2 = random.number(-1.5, 1.5);
+      // A third close to where the fields are equal, at which tight conics turn.
+      const double near = x1 + std::pow(10, random.number(-7, 0)) * (random.chance(0.5) ? 1 : -1);
+      rows.insert(rows.end(), {static_cast<float>(x1), static_cast<float>(i % 3 == 0 ? near : x2)});
+    }
+    const std::vector<float> results = on_device({"bt2", op}, rows);
+    double worst = 0, worst_partial = 0, from_union = 0;
+    for (std::size_t i = 0; 2 * i < rows.size(); ++i) {
+      const FieldState e = exact(op, {rows[2 * i], rows[2 * i + 1]});
+      worst = std::max(worst, std::abs(results[3 * i] - e.field.v));
+      worst_partial = std::max({worst_partial, std::abs(results[3 * i + 1] - e.field.d.x),
+                                std::abs(results[3 * i + 2] - e.field.d.y)});
+      from_union = std::max(from_union, std::min(rows[2 * i], rows[2 * i + 1]) - e.field.v);
+    }
+    test_support::figure(absl::StrCat("1 - p / (r1 r2) = ", below, ": values off by"), worst);
+    test_support::figure("partials off by", worst_partial);
+    test_support::figure("from the union at most", from_union);
+    EXPECT_LE(worst, 1e-6);
+    EXPECT_LE(worst_partial, 1e-5);
+  }
+}
+
 TEST(Conformance, ReproducesGoldenBt2) {
   expect_golden("hsu_bt2.csv", 2, [](const std::vector<double>& p) {  // r1, r2, p, m1, m2
     Operator op = of_kind(Kind::kBt2);

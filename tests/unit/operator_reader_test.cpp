@@ -143,7 +143,13 @@ TEST(OperatorReader, RangedBlendsNameTheTermThatIsWrong) {
   conic.mutable_bt2()->set_r1(1);
   conic.mutable_bt2()->set_r2(2);
   conic.mutable_bt2()->set_p(2);
-  expect_refused(conic, {"p = 2", "below r1 r2 = 2"});
+  expect_refused(conic, {"p = 2", "below r1 r2 = 2", "by at least 1e-09 of it"});
+  conic.mutable_bt2()->set_p(-3e14);
+  expect_refused(conic, {"p = -3e+14", "at least -1e+14 times it", "float32", "the union"});
+  for (const double p : {2 - 4e-9, -30.0, -1e14}) {
+    conic.mutable_bt2()->set_p(p);
+    EXPECT_TRUE(read_operator(conic).ok()) << p;
+  }
   conic.mutable_bt2()->set_p(0);
   conic.mutable_bt2()->set_m2(0);
   expect_refused(conic, {"m2 = 0", "[0.001, 1000]"});
