@@ -97,6 +97,9 @@ Field result(uint row, uint slot) {
   return r;
 }
 
+// Results beyond float32 are its largest numbers.
+float within_float(float x) { return clamp(x, -3.4028235e38, 3.4028235e38); }
+
 void main() {
   uint row = gl_GlobalInvocationID.x;
   if (row >= count) return;
@@ -110,8 +113,8 @@ void main() {
   uint width = 1u + operands + (is_steered_row ? 1u : 0u);
   for (uint slot = 0u; slot < operands; slot += 3u) {
     Field r = result(row, slot);
-    if (slot == 0u) results[row * width] = r.f;
-    for (uint k = 0u; k < min(operands - slot, 3u); ++k) results[row * width + 1u + slot + k] = r.d[k];
-    if (is_steered_row) results[row * width + 3u] = r.d.z;  // two operands
+    if (slot == 0u) results[row * width] = within_float(r.f);
+    for (uint k = 0u; k < min(operands - slot, 3u); ++k) results[row * width + 1u + slot + k] = within_float(r.d[k]);
+    if (is_steered_row) results[row * width + 3u] = within_float(r.d.z);  // two operands
   }
 }

@@ -30,6 +30,17 @@ bool is_transparent(const Node& node) {
 // was written with seven digits.
 constexpr double kSimilar = 5e-7;
 
+// What the weights of blends that are nested may multiply fields and their gradients by, together.
+constexpr double kMostGain = 1e9;
+
+// The most that an operator multiplies a field by, 1 over its weight.
+double gain_of(const operators::Operator& op) {
+  double gain = 1;
+  if (op.kind != Kind::kBt2 && op.kind != Kind::kBtk) return gain;
+  for (const operators::Term& t : op.terms) gain = std::max(gain, 1 / t.weight);
+  return gain;
+}
+
 class Compiler {
  public:
   explicit Compiler(const Scene& scene) : scene_(scene) {}
@@ -63,6 +74,7 @@ class Compiler {
     // How the node's value joins what is on the stack when it is complete.
     Join join;
     double length = 0;  // largest range below, in the unit of the node's own frame
+    double gain = 1;    // of the weights below
     Bounds bounds;
     Bounds waiting;  // second_first: those of the second operand, until the first is there
   };
@@ -162,6 +174,7 @@ class Compiler {
         continue;
       }
       if (top.next_child == node.children.size()) {
+        if (absl::Status s = check_gain(node, top); !s.ok()) return s;
         close();
         continue;
       }
@@ -201,6 +214,16 @@ class Compiler {
     if (join.op != Operator::kPush) add_sets(tape_, tape_.operations[join.operation], join.mode);
   }
 
+  // Blends divide fields by weights: nested often enough, beyond what float32 holds.
+  static absl::Status check_gain(const Node& node, Frame& frame) {
+    if (node.kind == NodeKind::kSoften) frame.gain = 1;
+    if (node.op && node.children.size() >= 2) frame.gain *= gain_of(*node.op);
+    if (frame.gain <= kMostGain) return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        absl::StrCat(node.path, ": its weights and those of blends below divide a field by ", 1 / frame.gain,
+                     " in all: expected weights whose product along a way down is at least ", 1 / kMostGain));
+  }
+
   // The node on top is complete: join its value, and tell its parent what it needs to know.
   void close() {
     Frame done = stack_.back();
@@ -235,6 +258,7 @@ class Compiler {
     Frame& parent = stack_.back();
     const Node& above = scene_.nodes[parent.node];
     parent.length = std::max(parent.length, done.length);
+    parent.gain = std::max(parent.gain, done.gain);
     if (!above.op || above.children.size() == 1) {
       parent.bounds = done.bounds;
       return;

@@ -101,16 +101,24 @@ absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
   const std::optional<Affine> inverse = place.inverse();
   const auto near_enough = [](double x) { return std::abs(x) <= kMaxCoordinate; };
   const double largest = std::max(*std::max_element(node.size.begin(), node.size.end()), node.range);
+  // A signed field is the distance over the scale: of it a length of 1 tells how large it may be.
+  const bool is_signed = node.law == operators::Law::kSigned;
+  const double least_length = is_signed ? 1 : node.range;
   // Maps that each are well conditioned may multiply to one that is not, and whose least stretch is lost in rounding.
   if (!inverse || !(stretch.least * (kMaxCondition * 1.001) >= stretch.most) ||
-      !(node.law == operators::Law::kSigned || node.range * stretch.least >= kMinLength) ||
+      !(least_length * stretch.least >= kMinLength * (1 - 1e-9)) ||
       !near_enough(largest * stretch.most) || !near_enough(place.offset.x) || !near_enough(place.offset.y) ||
       !near_enough(place.offset.z)) {
-    return absl::InvalidArgumentError(
+    std::string text =
         absl::StrCat(node.path, ": the transforms above scale it by ", stretch.least, " to ", stretch.most,
                      " and place it at (", place.offset.x, ", ", place.offset.y, ", ", place.offset.z,
                      "): expected lengths within [", kMinLength, ", ", kMaxCoordinate, "], coordinates of at most ",
-                     kMaxCoordinate, " and a condition number of at most ", kMaxCondition));
+                     kMaxCoordinate, " and a condition number of at most ", kMaxCondition);
+    if (is_signed) {
+      absl::StrAppend(&text, "; of a SIGNED field, which is the distance over the scale, a scale of at least ",
+                      kMinLength);
+    }
+    return absl::InvalidArgumentError(text);
   }
   leaf.anchor = place.offset;
   leaf.to_local = {inverse->linear, {}};

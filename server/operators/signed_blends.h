@@ -6,6 +6,9 @@
 
 namespace isofield::operators {
 
+// Signed fields of nested and folded operators end here, where float32 nearly does, and are constant beyond.
+inline constexpr double kMostField = 1e37;
+
 // [G] eq. 5: the R-function union (eq. 8) with a0 / (1 + (x1/a1)^2 + (x2/a2)^2) added. Where both fields are 0 the
 // union has no gradient; 1, 1 is returned.
 template <class T>

@@ -50,6 +50,15 @@ DualVec3 in_frame(const OperatorUse& use, const DualVec3& v) {
           v.z * Dual(l[5])};
 }
 
+// As on the device: where an operator of signed fields leaves float32, the field is constant.
+FieldState bounded(const FieldState& a) {
+  const auto largest = [](const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+  constexpr double kMost = operators::kMostField;
+  const double slope = std::max(largest(a.field.d), largest({a.steering.x.v, a.steering.y.v, a.steering.z.v}));
+  if (std::abs(a.field.v) < kMost && slope < kMost) return a;
+  return {std::clamp(a.field.v, -kMost, kMost), {}};
+}
+
 // The opening angle with its derivatives: theta(alpha), drawn to theta_min where a steering vector vanishes
 // ([G] section 7). Drawn in tan(theta), which is what the operator uses.
 Dual opening_angle(const OperatorUse& use, const DualVec3& a, const DualVec3& b) {
@@ -117,7 +126,7 @@ FieldState bt2(const OperatorUse& use, const FieldState& a, const FieldState& b)
     const Angle angle = angle_between(use, a, b);
     eliminate_bulge(r1, r2, angle.cosine, angle.ratio, op.omega);
   }
-  return joined(a, b, operators::bt2(a.field, b.field, r1, r2, op.tightness()));
+  return bounded(joined(a, b, operators::bt2(a.field, b.field, r1, r2, op.tightness())));
 }
 
 // Unions of two operands in their order.
@@ -149,11 +158,11 @@ FieldState unite(const OperatorUse& use, const FieldState& a, const FieldState& 
       return joined(a, b,
                     operators::bernhardt_blend(a.field, b.field, std::tan(op.theta1), std::tan(op.theta2), op.weight));
     case Kind::kRUnion:
-      return joined(a, b, operators::pasko_blend(a.field, b.field, 0, 1, 1));
+      return bounded(joined(a, b, operators::pasko_blend(a.field, b.field, 0, 1, 1)));
     case Kind::kPasko:
-      return joined(a, b, operators::pasko_blend(a.field, b.field, op.a0, op.a1, op.a2));
+      return bounded(joined(a, b, operators::pasko_blend(a.field, b.field, op.a0, op.a1, op.a2)));
     case Kind::kFunctional:
-      return joined(a, b, operators::functional_blend(a.field, b.field, op.curve));
+      return bounded(joined(a, b, operators::functional_blend(a.field, b.field, op.curve)));
     case Kind::kBt2:
       return bt2(use, a, b);
     case Kind::kSuperelliptic:
@@ -193,7 +202,7 @@ FieldState unite_all(const OperatorUse& use, const std::vector<FieldState>& x) {
     }
   }
   for (std::size_t i = 0; i < x.size(); ++i) r.steering = r.steering + scaled(x[i].steering, partials[i]);
-  return r;
+  return bounded(r);
 }
 
 // 1 - f of a positive field, -f of a signed one.

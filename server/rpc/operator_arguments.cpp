@@ -53,6 +53,9 @@ absl::Status refuse_columns(const OperatorArguments::Columns& columns, const std
       absl::StrCat("columns = [", stated, columns.size() > 20 ? ", ..." : "", "]: expected ", expected));
 }
 
+// Fields beyond would leave float32 where operators add them.
+constexpr float kMostField = 1e36f;
+
 // What numbers of a column may be; angles a rounding beyond an end are brought back to it.
 struct Range {
   float least, most;
@@ -64,8 +67,8 @@ struct Range {
     if (column == "theta") return {0, kMostTheta, false, "radians within [0, pi/4]"};
     if (column == "alpha") return {0, kMostAlpha, false, "radians within [0, pi]"};
     if (column == "ratio") return {0, kHuge, true, "a finite float32 > 0"};
-    if (column[0] == 'f') return {0, kHuge, false, "a finite float32 >= 0"};
-    return {-kHuge, kHuge, false, "a finite float32"};
+    if (column[0] == 'f') return {0, kMostField, false, "a finite float32 >= 0 of at most 1e36"};
+    return {-kMostField, kMostField, false, "a finite float32 of magnitude at most 1e36"};
   }
   bool admit(float& x) const {
     if (most < 4 && x > most && x <= most + kAngleTolerance) x = most;

@@ -154,7 +154,9 @@ Placement place(vec3 p, uint record) {
   Pair first = leaf_pair_at(record), second = leaf_pair_at(record + 2u);
   vec4 anchor = first.a, r0 = first.b, r1 = second.a, r2 = second.b;
   vec3 v = p - anchor.xyz;
-  return Placement(vec3(dot(r0.xyz, v), dot(r1.xyz, v), dot(r2.xyz, v)), mat3(r0.xyz, r1.xyz, r2.xyz),
+  // Scaled coordinates beyond would overflow when squared, too.
+  vec3 q = clamp(vec3(dot(r0.xyz, v), dot(r1.xyz, v), dot(r2.xyz, v)), vec3(-1e19), vec3(1e19));
+  return Placement(q, mat3(r0.xyz, r1.xyz, r2.xyz),
                    vec3(r0.w, r1.w, r2.w), anchor.w);
 }
 

@@ -62,6 +62,24 @@ Field join_binary(Field a, Field b, Binary o) {
   return r;
 }
 
+// Signed fields end here and are constant beyond; steeper ones count as level. Folded or nested often enough, their
+// operators would leave float32.
+const float MOST_FIELD = 1e37;
+Field bounded(Field a) {
+  // Sums, in which nothing that is no number gets lost.
+  vec3 size = abs(a.d);
+#ifdef WITH_GRADIENT
+  if (is_steered()) size += abs(a.g) + abs(a.j[0]) + abs(a.j[1]) + abs(a.j[2]);
+#endif
+  float slope = size.x + size.y + size.z;
+  Field r = select_field(zero_field(), a, abs(a.f) < MOST_FIELD && slope < MOST_FIELD);
+  r.f = clamp(a.f, -MOST_FIELD, MOST_FIELD);  // whatever the slope, so that kernels of values alone need none
+  return r;
+}
+
+// A signed operator's.
+Field join_signed(Field a, Field b, Binary o) { return bounded(join_binary(a, b, o)); }
+
 // A positive operator's: a field of 0 leaves the other untouched, to the bit.
 Field join_positive(Field a, Field b, Binary o) {
   Field r = select_field(join_binary(a, b, o), a, b.f <= 0.0);
@@ -144,6 +162,15 @@ struct Angle {
   Dual cosine, ratio;
 };
 Angle angle_between(Field a, Field b) {
+  // Directions that are too long to be squared are taken shorter.
+  float longest1 = max(max(abs(a.d.x), abs(a.d.y)), abs(a.d.z)), longest2 = max(max(abs(b.d.x), abs(b.d.y)), abs(b.d.z));
+  float scale1 = longest1 > 1e15 ? 1.0 / longest1 : 1.0, scale2 = longest2 > 1e15 ? 1.0 / longest2 : 1.0;
+  a.d *= scale1;
+  b.d *= scale2;
+#ifdef WITH_GRADIENT
+  a.j *= scale1;
+  b.j *= scale2;
+#endif
   float n1 = dot(a.d, a.d), n2 = dot(b.d, b.d);
   bool is_null = min(n1, n2) <= 1e-24;
 #ifdef WITH_GRADIENT
@@ -153,7 +180,7 @@ Angle angle_between(Field a, Field b) {
   Dual d12 = dot(a.d, b.d), d11 = is_null ? 1.0 : n1, d22 = is_null ? 1.0 : n2;
 #endif
   Dual cosine = times(d12, reciprocal(times(square_root(d11), square_root(d22))));
-  Dual ratio = square_root(over(d11, d22));
+  Dual ratio = (scale2 / scale1) * square_root(over(d11, d22));
   // Rounding may pass 1, where the cosine has no gradient.
   cosine = select_dual(cosine, dual(value_of(cosine) > 0.0 ? 1.0 : -1.0), abs(value_of(cosine)) >= 1.0);
   bool is_extreme = value_of(ratio) < 1.0 / MOST_RATIO || value_of(ratio) > MOST_RATIO;
@@ -172,7 +199,7 @@ Field blend_bt2(Field a, Field b, uint record, Angle angle) {
     eliminate_bulge(reach, angle.cosine, angle.ratio, head.w);
     inverse_weights = vec2(0.0);
   }
-  return join_binary(a, b, bt2(dual_of(a), dual_of(b), reach, head.z, inverse_weights));
+  return join_signed(a, b, bt2(dual_of(a), dual_of(b), reach, head.z, inverse_weights));
 }
 
 // N-ary operators take the operands whose bits `mask` has, the last one first: x[0] belongs to the highest bit. What is
@@ -209,7 +236,7 @@ Field join_operands(Field x[MAX_OPERANDS], Dual g, Dual partials[MAX_OPERANDS]) 
     if (is_steered()) r.j += w * x[j].j + outerProduct(x[j].d, gradient_of(partials[j]));
 #endif
   }
-  return r;
+  return bounded(r);
 }
 
 // [H] eq. 5.
@@ -332,7 +359,9 @@ Field blend_by_gradient(Field a, Field b, Field u, Field v, vec4 operation, uint
   r.d = g.g1 * a.d + g.g2 * b.d;
 #ifdef WITH_GRADIENT
   // Gradient of t: through the angle, and through the presence of either gradient.
-  vec3 n1_v = 2.0 * h * (d1 * u.j), n2_v = 2.0 * h * (d2 * v.j);
+  // Ranges that differ by 1e18 make them larger than float32, where they count no more.
+  vec3 n1_v = clamp(2.0 * h * (d1 * u.j), -MOST_FIELD, MOST_FIELD);
+  vec3 n2_v = clamp(2.0 * h * (d2 * v.j), -MOST_FIELD, MOST_FIELD);
   vec3 cosine_v = h * inverse1 * inverse2 * (d2 * u.j + d1 * v.j) -
                   0.5 * cosine * (inverse1 * inverse1 * n1_v + inverse2 * inverse2 * n2_v);
   // Openings are flat at 0 and pi, where the angle has no gradient.
@@ -367,10 +396,10 @@ Field unite(Field a, Field b, uint op, uint record, Angle angle) {
     r = join_positive(a, b, bernhardt_blend(dual_of(a), dual_of(b), o.x, o.y, o.z));
   }
   IF_OPERATOR(op, OPERATOR_PASKO) {
-    r = join_binary(a, b, pasko_blend(dual_of(a), dual_of(b), operation_at(record).xyz));
+    r = join_signed(a, b, pasko_blend(dual_of(a), dual_of(b), operation_at(record).xyz));
   }
   IF_OPERATOR(op, OPERATOR_FUNCTIONAL) {
-    r = join_binary(a, b, functional_blend(dual_of(a), dual_of(b), operation_at(record)));
+    r = join_signed(a, b, functional_blend(dual_of(a), dual_of(b), operation_at(record)));
   }
   IF_OPERATOR(op, OPERATOR_BT2) r = blend_bt2(a, b, record, angle);
   return r;

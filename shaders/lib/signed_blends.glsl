@@ -9,7 +9,7 @@ const float FAR = 1e8;  // times a1 or a2
 
 // [G] eqs. 5 and 8; `a` holds a0, 1 / a1^2, 1 / a2^2.
 Binary pasko_blend(Dual x1, Dual x2, vec3 a) {
-  // Scaled, so that no square over- or underflows.
+  // Scaled, so that no square over- or underflows; fields are at most MOST_FIELD.
   float size = max(max(abs(value_of(x1)), abs(value_of(x2))), 1e-30);
   Dual u1 = x1 * (1.0 / size), u2 = x2 * (1.0 / size);
   Dual r = square_root(times(u1, u1) + times(u2, u2));

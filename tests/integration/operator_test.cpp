@@ -197,6 +197,9 @@ TEST_F(Operator, RefusesNumbersByRowAndColumn) {
   refused("max", {"f1", "f2"}, {kInf, 0}, {"arguments[0].f1 = inf", "finite"});
   refused("max", {"f2", "f1"}, {0, kNan}, {"arguments[0].f1 = nan", "finite"});
   refused("r_union", {"x1", "x2"}, {-1, kNan}, {"arguments[0].x2 = nan", "finite"});
+  refused("r_union", {"x1", "x2"}, {3e38f, 3e38f}, {"arguments[0].x1 = 3e+38", "at most 1e36"});
+  refused("r_union", {"x1", "x2"}, {1, -3e38f}, {"arguments[0].x2 = -3e+38", "at most 1e36"});
+  refused("sum", {"f1", "f2"}, {1, 2e36f}, {"arguments[0].f2 = 2e+36", "at most 1e36"});
   refused("gradient", {"f1", "f2", "theta"}, {0, 0, 0.8f}, {"arguments[0].theta = 0.8", "[0, pi/4]"});
   refused("gradient", {"f1", "f2", "theta"}, {0, 0, -0.1f}, {"arguments[0].theta = -0.1", "[0, pi/4]"});
   refused("gradient", {"f1", "f2", "alpha"}, {0, 0, 3.2f}, {"arguments[0].alpha = 3.2", "[0, pi]"});

@@ -148,6 +148,28 @@ TEST(Compiler, FullTreesNeedFewRegisters) {
   }
 }
 
+TEST(Compiler, NestedWeightsThatLeaveFloat32AreRefused) {
+  std::string nodes = R"({"sphere": {"radius": 1, "law": "SIGNED"}})";
+  const auto add = [&](int level) {
+    absl::StrAppend(&nodes,
+                    level % 2 == 0 ? R"(, {"bt2": {"r1": 1, "r2": 1, "m1": 1e-3)"
+                                   : R"(, {"btk": {"ranges": [1], "weights": [1e-3, 1])",
+                    R"(, "children": ["#)", level, R"(", "#0"]}})");
+    return compile(test_support::read_or_die(test_support::scene_of_nodes(nodes)));
+  };
+  for (int level = 0; level < 3; ++level) EXPECT_TRUE(add(level).ok()) << level;
+  const auto tape = add(3);
+  ASSERT_FALSE(tape.ok());
+  const std::string text(tape.status().message());
+  EXPECT_NE(text.find("nodes[4]: its weights and those of blends below divide a field by 1e-12"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("at least 1e-09"), std::string::npos) << text;
+  // What is made positive is at most 1.
+  nodes += R"(, {"soften": {"child": "#3", "range": 1}}, {"harden": {"child": "#5"}})";
+  nodes += R"(, {"bt2": {"r1": 1, "r2": 1, "m1": 1e-3, "children": ["#6", "#0"]}})";
+  EXPECT_TRUE(compile(test_support::read_or_die(test_support::scene_of_nodes(nodes))).ok());
+}
+
 TEST(Compiler, TooManyWaitingValuesAreRefused) {
   // Third children are not put first: each level keeps one value waiting.
   std::string nodes = kFour;

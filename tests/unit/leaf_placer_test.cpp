@@ -135,5 +135,29 @@ TEST(LeafPlacer, LengthsThatLeaveTheirRangeAreRefused) {
                            {"transform": {"child": "#2", "rotation": [3,2,3,70], "scale": [1e-5,1,1]}})");
 }
 
+TEST(LeafPlacer, ScalesThatASignedFieldCannotBeDividedByAreRefused) {
+  const std::string ball = R"({"name": "ball", "sphere": {"radius": 1, "law": "SIGNED"}}, )";
+  // Products that leave the range, float32 and at last the numbers.
+  for (const char* factor : {"1e-6", "1e6"}) {
+    std::string nodes = ball;
+    for (int i = 0; i < 60; ++i) {
+      nodes += std::string(i > 0 ? ", " : "") + R"({"transform": {"child": "#)" + std::to_string(i) +
+               R"(", "scale": [)" + factor + "]}}";
+      if (i > 0) expect_refused(nodes);
+    }
+  }
+  expect_refused(ball + R"({"transform": {"child": "ball", "scale": [1e-5, 1e-5, 2e-5]}},
+                           {"transform": {"child": "#1", "scale": [1e-5]}})");
+  const auto scene = read_scene(scene_of_nodes(ball + R"({"transform": {"child": "ball", "scale": [1e-3]}},
+      {"transform": {"child": "#1", "scale": [1e-3]}}, {"transform": {"child": "#2", "scale": [1e-3]}})"));
+  ASSERT_TRUE(scene.ok());
+  EXPECT_TRUE(compile(*scene).ok());
+  const auto refused = read_scene(scene_of_nodes(ball + R"({"transform": {"child": "ball", "scale": [1e-5]}},
+      {"transform": {"child": "#1", "scale": [1e-5]}})"));
+  const std::string text(compile(*refused).status().message());
+  EXPECT_NE(text.find("scale it by 1e-10 to 1e-10"), std::string::npos) << text;
+  EXPECT_NE(text.find("a scale of at least 1e-09"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace isofield::blobtree

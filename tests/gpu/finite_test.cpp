@@ -1,0 +1,339 @@
+// Values and gradients are finite whatever the numbers: of operators by themselves at the ends of float32, and of
+// scenes at the ends of what their parameters and points may be.
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_join.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "blobtree/compiler.h"
+#include "blobtree/scene_reader.h"
+#include "engine/field_evaluator.h"
+#include "gpu/gpu_environment.h"
+#include "gpu/operator_cases.h"
+#include "support/paper_scene.h"
+#include "support/random_scene.h"
+#include "support/scene_text.h"
+
+namespace isofield::gpu_test {
+namespace {
+
+using operators::Form;
+using operators::Kind;
+using operators::Law;
+using operators::Operator;
+using test_support::Random;
+
+constexpr float kMost = std::numeric_limits<float>::max();
+
+// With the gradient blend's own representations.
+std::vector<Case> all_cases() {
+  std::vector<Case> all = cases();
+  using operators::Silhouette;
+  for (const Form form : {Form::kUnion, Form::kIntersection, Form::kDifference}) {
+    Operator op = of_kind(Kind::kGradient);
+    op.form = form;
+    all.push_back({"gradient", op});
+    op.silhouette = {Silhouette::Kind::kBulge, 0.8};
+    all.push_back({"bulge", op});
+  }
+  Operator op = of_kind(Kind::kGradient);
+  op.volume = 16;
+  all.push_back({"volume", op});
+  op = of_kind(Kind::kBt2);
+  for (const double tightness : {1e-9, 1e14}) {
+    op.terms = {{1e-3, 2, 1e-3}, {1e3, 2, 1e3}};
+    op.conic = 1 - tightness;
+    all.push_back({absl::StrCat("bt2 of tightness ", tightness), op});
+  }
+  op = of_kind(Kind::kSuperelliptic);
+  op.exponent = 64;
+  op.terms = {{1e-9, 2, 1}, {1e9, 2, 1}};
+  all.push_back({"superelliptic, extreme", op});
+  op.by_angle = true;
+  op.omega = 0.001;
+  all.push_back({"superelliptic by angle, extreme", op});
+  op = of_kind(Kind::kBtk);
+  op.terms = {{1e-9, 64, 1e-3}, {1e9, 1.0001, 1e3}};
+  all.push_back({"btk, extreme", op});
+  op = of_kind(Kind::kPasko);
+  op.a0 = -1e9;
+  op.a1 = 1e-9;
+  op.a2 = 1e9;
+  all.push_back({"pasko, extreme", op});
+  return all;
+}
+
+TEST(Finite, OperatorsAreAtTheEndsOfFloat32) {
+  std::vector<float> fields{0, std::numeric_limits<float>::denorm_min(), 1e-38f, 1e-20f, 1e-7f, 0.5f, 1, 3, 1e7f, 1e12f,
+                            1e19f, 1e25f, 1e30f, 1e36f};
+  std::size_t rows_in_all = 0;
+  for (const Case& c : all_cases()) {
+    std::vector<float> values = fields;
+    if (operators::law_of(c.op.kind) == Law::kSigned) {
+      for (const float f : fields) values.push_back(-f);
+    }
+    std::vector<float> rows;
+    for (const float x1 : values) {
+      for (const float x2 : values) {
+        for (int variant = 0; variant < 3; ++variant) {
+          if (c.operands == 3) {
+            rows.insert(rows.end(), {x1, x2, variant == 0 ? x1 : variant == 1 ? 0.0f : -x2});
+          } else if (c.op.by_angle) {
+            const float ratios[] = {1e-38f, 1.0f, kMost};
+            rows.insert(rows.end(), {x1, x2, variant * 1.5707963f, ratios[variant]});
+          } else if (c.op.is_steered()) {
+            rows.insert(rows.end(), {x1, x2, variant * 0.3926990f});
+          } else if (variant == 0) {
+            rows.insert(rows.end(), {x1, x2});
+          }
+        }
+      }
+    }
+    const std::vector<float> results = on_device(c, rows);
+    const std::size_t columns = c.operands + (c.op.by_angle ? 2 : c.op.is_steered() ? 1 : 0);
+    const std::size_t width = results.size() / (rows.size() / columns);
+    rows_in_all += rows.size() / columns;
+    int bad = 0;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (std::isfinite(results[i])) continue;
+      if (++bad > 3) continue;
+      const auto at = rows.begin() + static_cast<std::ptrdiff_t>(i / width * columns);
+      ADD_FAILURE() << c.name << " at " << absl::StrJoin(at, at + static_cast<std::ptrdiff_t>(columns), " ")
+                    << ": result " << i % width << " is " << results[i];
+    }
+    EXPECT_EQ(bad, 0) << c.name;
+  }
+  test_support::figure("rows", static_cast<double>(rows_in_all));
+}
+
+// Lengths, coordinates and other parameters from the ends of what is accepted and from between.
+class ExtremeScene {
+ public:
+  explicit ExtremeScene(std::uint64_t seed) : random_(seed) {}
+
+  Random& random() { return random_; }
+
+  double length() {
+    constexpr double kLengths[] = {1e-9, 1e-6, 1e-3, 0.1, 0.5, 1, 1, 2, 10, 1e3, 1e6, 1e9};
+    return of(kLengths);
+  }
+  double coordinate() {
+    constexpr double kCoordinates[] = {0, 0, 0, 1e-30, 1e-9, -1e-3, 0.3, -1, 1, 50, -1e4, 1e9, -1e9};
+    return of(kCoordinates);
+  }
+  std::string point() { return absl::StrCat("[", coordinate(), ", ", coordinate(), ", ", coordinate(), "]"); }
+
+  std::string lengths() { return absl::StrCat("[", length(), ", ", length(), ", ", length(), "]"); }
+
+  std::string leaf(const std::string& name, bool is_signed, int shape) {
+    const std::string law = is_signed ? R"("law": "SIGNED")" : absl::StrCat(R"("range": )", length());
+    const std::string head = absl::StrCat(R"({"name": ")", name, R"(", )");
+    switch (shape) {
+      case 0:
+        return absl::StrCat(head, R"("sphere": {"center": )", point(), R"(, "radius": )", length(), ", ", law, "}}");
+      case 1:
+        return absl::StrCat(head, R"("segment": {"a": )", point(), R"(, "b": )", point(), R"(, "radius_a": )", length(),
+                            R"(, "radius_b": )", length(), ", ", law, "}}");
+      case 2:
+        return absl::StrCat(head, R"("box": {"center": )", point(), R"(, "half_size": )", lengths(),
+                            R"(, "rounding": )", random_.chance(0.5) ? 0 : 1e-9, ", ", law, "}}");
+      case 3:
+        return absl::StrCat(head, R"("cylinder": {"a": )", point(), R"(, "b": )", point(), R"(, "radius": )", length(),
+                            ", ", law, "}}");
+      case 4:
+        return absl::StrCat(head, R"("torus": {"center": )", point(), R"(, "axis": [1, 1e-9, -1e9], "major_radius": )",
+                            length(), R"(, "minor_radius": )", length(), ", ", law, "}}");
+      default:
+        return absl::StrCat(head, R"("ellipsoid": {"center": )", point(), R"(, "semi_axes": )", lengths(), ", ", law,
+                            "}}");
+    }
+  }
+
+  // A map of `name` called name + "t", within the condition that is accepted.
+  std::string transform(const std::string& name) {
+    constexpr double kScales[] = {1e-9, 1e-5, 1, 1, 3, 1e5, 1e9};
+    const double scale = of(kScales);
+    constexpr double kRatios[] = {1, 2, 1e3, 9e5};
+    return absl::StrCat(R"({"name": ")", name, R"(t", "transform": {"child": ")", name, R"(", "scale": [)", scale, ", ",
+                        std::min(scale * of(kRatios), 1e9), ", ", scale, R"(], "rotation": [1, 2, -3, 40]}})");
+  }
+
+  // The parameters of an operator at the ends of their ranges; its opcodes stay.
+  void make_extreme(Operator& op) {
+    constexpr double kExponents[] = {1, 1.5, 2, 8, 64};
+    constexpr double kWeights[] = {1e-3, 0.5, 1, 1, 1e3};
+    constexpr double kOmegas[] = {0.001, 0.01, 1};
+    for (operators::Term& t : op.terms) {
+      t = {length(), std::max(of(kExponents), 1.0001), op.kind == Kind::kSuperelliptic ? 1 : of(kWeights)};
+    }
+    if (op.kind == Kind::kRicci || op.kind == Kind::kSuperelliptic) op.exponent = of(kExponents);
+    op.omega = of(kOmegas);
+    if (op.kind == Kind::kBt2) {
+      constexpr double kTightness[] = {1e-9, 0.1, 1, 100, 1e14};
+      op.conic = (1 - of(kTightness)) * op.term(0).range * op.term(1).range;
+    }
+    if (op.kind == Kind::kPasko) {
+      op.a0 = random_.chance(0.5) ? length() : -length();
+      op.a1 = length();
+      op.a2 = length();
+    }
+    if (op.kind == Kind::kFunctional) {
+      const double x = random_.chance(0.3) ? 0 : length(), width = length();
+      op.curve = operators::SampledCurve({x, x + width, x + 3 * width}, {length(), -length(), 0});
+    }
+  }
+
+  template <std::size_t N>
+  double of(const double (&values)[N]) {
+    return values[random_.integer(0, static_cast<int>(N) - 1)];
+  }
+
+ private:
+  Random random_;
+};
+
+// The shapes of a scene's three leaves, and whether maps stand before them.
+struct Shapes {
+  int leaves[3];
+  bool has_maps;
+};
+
+std::string gradient_node(const Operator& op, const std::string& children, ExtremeScene& extreme) {
+  constexpr const char* kOpenings[] = {"CAMEL", "ORGANIC", "CONTACT"};
+  const bool is_bulge = op.silhouette.kind == operators::Silhouette::Kind::kBulge;
+  const char* form = op.form == Form::kUnion ? "UNION" : op.form == Form::kIntersection ? "INTERSECTION" : "DIFFERENCE";
+  return absl::StrCat(R"("gradient": {"children": [)", children, R"(], "opening": {"preset": ")",
+                      kOpenings[extreme.random().integer(0, 2)], R"("}, "silhouette": )",
+                      is_bulge ? absl::StrCat(R"({"kind": "BULGE", "k": )", extreme.random().number(0, 1), "}") : "{}",
+                      R"(, "form": ")", form, R"(", "volume": )", op.volume, "}}");
+}
+
+// A scene of the operator over three leaves (two where it takes no more), converted where it is signed and folded with
+// itself, so that what one yields meets another.
+std::string scene_text(Case c, const Shapes& shapes, ExtremeScene& extreme) {
+  const bool is_signed = operators::law_of(c.op.kind) == Law::kSigned;
+  extreme.make_extreme(c.op);
+  std::vector<std::string> nodes, names;
+  for (int i = 0; i < 3; ++i) {
+    std::string name = absl::StrCat("p", i);
+    nodes.push_back(extreme.leaf(name, is_signed, shapes.leaves[i]));
+    if (shapes.has_maps) {
+      nodes.push_back(extreme.transform(name));
+      name += "t";
+    }
+    names.push_back(name);
+  }
+  const auto node = [&](const std::vector<std::string>& children, const std::string& name) {
+    if (c.op.kind != Kind::kGradient) return operator_node(c.op, children, name);
+    return absl::StrCat(R"({"name": ")", name, R"(", )",
+                        gradient_node(c.op, absl::StrCat("\"", absl::StrJoin(children, "\", \""), "\""), extreme));
+  };
+  if (c.operands == 3) {
+    nodes.push_back(node(names, "all"));
+  } else {
+    nodes.push_back(node({names[0], names[1]}, "two"));
+    nodes.push_back(node({"two", names[2]}, "all"));
+  }
+  // A signed field as it is, or what a positive one is made of it.
+  if (is_signed && c.op.form == Form::kDifference) {
+    nodes.push_back(absl::StrCat(R"({"soften": {"child": "all", "range": )", extreme.length(), "}}"));
+  }
+  return absl::StrCat("[", absl::StrJoin(nodes, ",\n"), "]");
+}
+
+// Points from float32's ends and from around the leaves.
+std::vector<float> extreme_points(const v1::Scene& scene, int count, Random& random) {
+  constexpr float kEnds[] = {0,      -0.0f,  1e-45f, 1.2e-38f, -1e-30f, 1e-20f, -1e-9f, 1e-3f, 0.3f,
+                             -1,     1,      50,     -1e4f,    1e9f,    -1e9f,  1e10f,  1e15f, -3e38f, kMost};
+  std::vector<blobtree::dvec3> centres{{0, 0, 0}};
+  const auto add = [&](const auto& point) {
+    if (point.size() == 3) centres.push_back({point[0], point[1], point[2]});
+  };
+  for (const v1::Node& node : scene.nodes()) {
+    add(node.sphere().center());
+    add(node.segment().a());
+    add(node.segment().b());
+    add(node.box().center());
+    add(node.cylinder().a());
+    add(node.torus().center());
+    add(node.ellipsoid().center());
+  }
+  std::vector<float> points;
+  for (int i = 0; i < count; ++i) {
+    if (i % 4 == 0) {
+      for (int k = 0; k < 3; ++k) points.push_back(kEnds[random.integer(0, std::size(kEnds) - 1)]);
+      continue;
+    }
+    const blobtree::dvec3& centre = centres[random.integer(0, static_cast<int>(centres.size()) - 1)];
+    const double reach = std::pow(10, random.number(-12, 11));
+    const blobtree::dvec3 p = i % 29 == 0 ? centre : centre + random.point(-1, 1) * reach;
+    for (const double x : {p.x, p.y, p.z}) points.push_back(static_cast<float>(x));
+  }
+  return points;
+}
+
+TEST(Finite, ScenesAreAtTheEndsOfTheirParametersAndPoints) {
+  constexpr int kScenes = 16, kPoints = 1700;
+  static engine::FieldEvaluator evaluator(device(), kernels(), workers());
+  std::size_t pairs = 0, sets = 0, refused = 0;
+  std::vector<Case> all;
+  for (Case& c : all_cases()) {
+    // One of each kind, form and whether it follows an angle.
+    const auto is_alike = [&](const Case& other) {
+      return other.op.kind == c.op.kind && other.op.form == c.op.form && other.op.by_angle == c.op.by_angle &&
+             other.op.silhouette.kind == c.op.silhouette.kind && other.op.volume == c.op.volume;
+    };
+    // An intersection of signed fields differs from the union in signs alone.
+    const bool is_turned = c.op.form == Form::kIntersection && operators::law_of(c.op.kind) == Law::kSigned;
+    if (!is_turned && std::none_of(all.begin(), all.end(), is_alike)) all.push_back(std::move(c));
+  }
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const Case& c = all[n];
+    const int first = static_cast<int>(n % 6);
+    const Shapes shapes{{first, (first + 1) % 6, (first + 3) % 6}, n % 3 != 0};
+    ExtremeScene extreme(n);
+    std::size_t bad = 0;
+    ++sets;
+    for (int s = 0; s < kScenes; ++s) {
+      // What is refused is drawn again.
+      for (int attempt = 0; attempt < 100; ++attempt) {
+        const std::string text = scene_text(c, shapes, extreme);
+        const v1::Scene message = test_support::scene_of_nodes(text);
+        const auto scene = blobtree::read_scene(message, {});
+        if (!scene.ok() || !blobtree::compile(*scene).ok()) {
+          ++refused;
+          continue;
+        }
+        const engine::SceneLease lease = resident(message);
+        const std::vector<float> points = extreme_points(message, kPoints, extreme.random());
+        std::vector<float> out(kPoints * 4);
+        const absl::Status status = evaluator.evaluate(*lease, points, engine::Quantity::kValueAndGradient, out);
+        ASSERT_TRUE(status.ok()) << status << text;
+        pairs += kPoints;
+        for (std::size_t i = 0; i < out.size(); i += 4) {
+          if (std::isfinite(out[i]) && std::isfinite(out[i + 1]) && std::isfinite(out[i + 2]) &&
+              std::isfinite(out[i + 3])) {
+            continue;
+          }
+          if (++bad > 1) continue;
+          const float* p = &points[i / 4 * 3];
+          ADD_FAILURE() << c.name << " at " << p[0] << " " << p[1] << " " << p[2] << ": " << out[i] << " with gradient "
+                        << out[i + 1] << " " << out[i + 2] << " " << out[i + 3] << "\n"
+                        << text;
+        }
+        break;
+      }
+    }
+    EXPECT_EQ(bad, 0u) << c.name;
+  }
+  test_support::figure("opcode sets", static_cast<double>(sets));
+  test_support::figure("scenes refused and drawn again", static_cast<double>(refused));
+  test_support::figure("scenes and points", static_cast<double>(pairs));
+  EXPECT_GE(pairs, 1'000'000u);
+}
+
+}  // namespace
+}  // namespace isofield::gpu_test
