@@ -12,6 +12,7 @@ namespace {
 #include "mesh_crossings_narrow.inc"
 #include "mesh_crossings_wide.inc"
 #include "mesh_list.inc"
+#include "mesh_near.inc"
 #include "mesh_normals_narrow.inc"
 #include "mesh_normals_wide.inc"
 #include "mesh_place_narrow.inc"
@@ -21,6 +22,7 @@ namespace {
 #include "mesh_quads.inc"
 #include "mesh_quads_smooth.inc"
 #include "mesh_sample.inc"
+#include "mesh_settle.inc"
 #include "mesh_share.inc"
 #include "mesh_triangles.inc"
 #include "mesh_vertices_narrow.inc"
@@ -50,6 +52,8 @@ const Spirv kGridGradient{grid_gradient};
 const Spirv kMeshSample{mesh_sample};
 const Spirv kMeshShare{mesh_share};
 const Spirv kMeshClassify{mesh_classify};
+const Spirv kMeshNear{mesh_near};
+const Spirv kMeshSettle{mesh_settle};
 const Spirv kMeshConnect{mesh_connect};
 const Spirv kMeshList{mesh_list};
 const InRounds kMeshCrossings{mesh_crossings_wide, mesh_crossings_narrow};

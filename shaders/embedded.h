@@ -10,8 +10,8 @@ using Spirv = std::span<const std::uint32_t>;
 
 extern const Spirv kPointsValue, kPointsGradient, kSortedPointsValue, kSortedPointsGradient;
 extern const Spirv kGridValue, kGridGradient;
-extern const Spirv kMeshSample, kMeshShare, kMeshClassify, kMeshConnect, kMeshList, kMeshQuads, kMeshQuadsSmooth,
-    kMeshTriangles;
+extern const Spirv kMeshSample, kMeshShare, kMeshClassify, kMeshNear, kMeshSettle, kMeshConnect, kMeshList,
+    kMeshQuads, kMeshQuadsSmooth, kMeshTriangles;
 // A workgroup takes what a brick has in rounds of as many as it has invocations: 32, or 8. On lavapipe the subgroups of
 // a workgroup run one after the other, and idle ones cost, too: with four of 8 a mesh of 1,000 spheres takes 1.1 times
 // as long as with one.

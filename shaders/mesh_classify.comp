@@ -8,20 +8,24 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = 5) readonly buffer Samples { float samples[]; };  // of the slab that starts at brick `first`
 layout(std430, binding = 6) writeonly buffer Cases { uint cases[]; };      // four cells a word
+layout(std430, binding = 7) writeonly buffer NearBricks { uint near_bricks[]; };  // 1: has samples near iso
 
 void main() {
   uint word = gl_GlobalInvocationID.x;
   if (word >= count * (CELLS_PER_BRICK / 4u)) return;
   uint b = word / (CELLS_PER_BRICK / 4u);
   uint packed_cases = 0u;
+  float nearest = 1e30;
   for (uint n = 0u; n < 4u; ++n) {
     uvec3 cell = cell_in_brick(word % (CELLS_PER_BRICK / 4u) * 4u + n);
     uint inside = 0u;
     for (uint corner = 0u; corner < 8u; ++corner) {
       float f = samples[b * CORNERS_PER_BRICK + sample_place(cell + corner_offset(corner))];
       inside |= (f > iso ? 1u : 0u) << corner;
+      nearest = min(nearest, abs(f - iso));
     }
     packed_cases |= inside << (8u * n);
   }
   cases[first * (CELLS_PER_BRICK / 4u) + word] = packed_cases;
+  if (nearest <= near) near_bricks[b] = 1u;
 }

@@ -18,7 +18,8 @@ layout(std430, binding = 11) buffer Positions { float positions[]; };
 const int ROUNDS = 3;
 const float FIRST_PULL = 0.35, PULL = 0.07;
 // And a little further out of the cell along the side: where the crease lies in a face, a side may lie beyond it.
-const float BEYOND = 0.1;
+// At first further where a side lies in the cell's face: all of the solid may be beyond.
+const float BEYOND = 0.1, BEYOND_FACE = 0.3;
 // Of the meeting point. Little: the way that a face which holds the vertex leaves it may meet a side at a few degrees.
 const float DAMPING = 1e-4;
 
@@ -35,20 +36,23 @@ void main() {
     uvec3 cell = cell_in_brick(vertex_cell(vertex));
     vec3 low = corner_position(at.at * BRICK_CELLS + cell);
     float size = origin.w;
-    Crossing from0 = Crossing(vec3(0.0), vec3(0.0)), from1 = from0, from2 = from0;
+    Crossing from0 = Crossing(vec3(0.0), vec3(0.0), false), from1 = from0, from2 = from0;
     if (on_crease) {
       from0 = crossing_of(b, cell, vertex_edge(vertex, 0u));
       from1 = crossing_of(b, cell, vertex_edge(vertex, 1u));
       from2 = crossing_of(b, cell, vertex_edge(vertex, 2u));
     }
     vec3 x = (vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]) - low) / size;
+    float first_beyond = (vertex & VERTEX_BY_SURFACE) != 0u ? BEYOND_FACE : BEYOND;
     Planes planes = no_planes();
     for (int step = 0; step < 3 * ROUNDS; ++step) {
       int side = step % 3;
       vec3 at_side = side == 0 ? from0.at : side == 1 ? from1.at : from2.at;
       vec3 facing = side == 0 ? from0.normal : side == 1 ? from1.normal : from2.normal;
       vec3 outwards = at_side - 0.5;
-      vec3 q = mix(x, at_side, step < 3 ? FIRST_PULL : PULL) + BEYOND * (outwards - dot(outwards, facing) * facing);
+      bool is_first = step < 3;
+      vec3 q = mix(x, at_side, is_first ? FIRST_PULL : PULL) +
+               (is_first ? first_beyond : BEYOND) * (outwards - dot(outwards, facing) * facing);
       Field a = evaluate(low + q * size, at.tape_begin, at.tape_count);
       vec3 d = inward() * size * a.d;
       float inverse = inversesqrt(max(dot(d, d), 1e-30));

@@ -17,6 +17,8 @@ layout(std430, binding = 10) writeonly buffer Crossings { float crossings[]; }; 
 // The linearised distance, in cells, from where a step of Newton's method is the last: it squares it.
 const float NEAR = 0.02;
 const int STEPS = 8;
+// The cosine between an edge's way and a normal below which the edge runs along the surface.
+const float ALONG = 0.05;
 
 void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
@@ -32,8 +34,11 @@ void main() {
     float f0 = samples[slot * CORNERS_PER_BRICK + sample_place(cell)];
     float f1 = samples[slot * CORNERS_PER_BRICK + sample_place(cell + step_along)];
     uvec3 base = at.at * BRICK_CELLS + cell;
-    vec3 low = corner_position(base), along = vec3(step_along);
+    // Where its inner end is on the surface the edge may run along it: there it is looked for beside the edge, too.
     float size = origin.w;
+    bool begins_on_surface = is_on_surface(inside_low ? f0 : f1);
+    vec3 beside = begins_on_surface ? shift * BESIDE : vec3(0.0);
+    vec3 low = corner_position(base) + beside, along = vec3(step_along);
 
     // Newton's method along the edge within a bracket that closes from both sides, and bisection where it would leave it.
     float least = 0.0, most = 1.0;
@@ -45,7 +50,9 @@ void main() {
       // Scaled by the cell first: in large units the square of a gradient underflows.
       vec3 d = inward() * size * a.d;
       float excess = inward() * a.f - iso, slope2 = dot(d, d);
-      n = slope2 > 1e-30 && !done ? -d * inversesqrt(slope2) : n;
+      // There the surface that it runs along may be nearer than the one that it crosses.
+      bool crosses = !begins_on_surface || abs(dot(d, along)) > ALONG * sqrt(slope2);
+      n = slope2 > 1e-30 && !done && crosses ? -d * inversesqrt(slope2) : n;
       if ((excess > 0.0) == inside_low) least = s; else most = s;
       float newton = s - excess / dot(d, along), within = clamp(newton, least, most);
       // Near the surface, and not beside it: the edge may leave it at a small angle. Neither of a NaN.
@@ -53,7 +60,10 @@ void main() {
       s = done ? s : newton == within || is_last ? within : 0.5 * (least + most);
       done = done || is_last;
     }
-    n *= 1.0 + s;
+    // Back onto the edge along the tangent plane, as far as that crosses it.
+    float slope = dot(n, along);
+    s = clamp(s + dot(n, beside) / size * slope / (slope * slope + ALONG * ALONG), 0.0, 1.0);
+    n *= (begins_on_surface ? 3.0 : 1.0) + s;
     crossings[3u * q] = n.x;
     crossings[3u * q + 1u] = n.y;
     crossings[3u * q + 2u] = n.z;

@@ -40,11 +40,11 @@ void main() {
 
     vec3 sum = vec3(0.0), facing = vec3(0.0);
     Planes planes = no_planes();  // about the cell's low corner
-    bool on_cap = false;
+    bool on_cap = false, by_surface = false;
     for (uint left = edges; left != 0u; left &= left - 1u) {
       uint edge = uint(findLSB(left));
       uvec3 low = edge_offset(edge), high = low + axis_vector(edge >> 2u);
-      Crossing c = Crossing(vec3(0.0), vec3(0.0));
+      Crossing c = Crossing(vec3(0.0), vec3(0.0), false);
       if (MAY_HAVE_CREASES) {
         c = crossing_of(b, cell, edge);
       } else {
@@ -55,6 +55,7 @@ void main() {
       sum += c.at;
       facing += c.normal;
       add_plane(planes, c.normal, dot(c.normal, c.at));
+      by_surface = by_surface || c.begins_on_surface;
       on_cap = on_cap || is_cap(base + low) || is_cap(base + high);
     }
     float count = float(bitCount(edges));
@@ -91,7 +92,8 @@ void main() {
       vertex |= VERTEX_ON_CREASE | chosen << 12u;
       atomicOr(kinds[b], HAS_CREASES);
     }
-    vertex_list[v] = vertex | (on_cap ? VERTEX_ON_CAP : 0u) | (is_crowded ? VERTEX_IS_CROWDED : 0u);
+    vertex_list[v] = vertex | (on_cap ? VERTEX_ON_CAP : 0u) | (is_crowded ? VERTEX_IS_CROWDED : 0u) |
+                     (by_surface ? VERTEX_BY_SURFACE : 0u);
     vec3 p = corner_position(base) + x * origin.w;
     positions[3u * v] = p.x;
     positions[3u * v + 1u] = p.y;

@@ -1,4 +1,4 @@
-// Mesher, pass 1: the field at the corners of bricks' cells, eight invocations a part of a brick.
+// Mesher, pass 1: the field at the corners of bricks' cells, or `shift` beside them, eight invocations a part of a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -18,6 +18,6 @@ void main() {
   uint place = jobs[at + 1u] >> 4u, part = jobs[at + 1u] & 15u;
   uvec3 corner = corner_of_part(part, gl_GlobalInvocationID.x % PART_CORNERS);
   uvec3 i = b.at * BRICK_CELLS + corner;
-  float f = inward() * evaluate(corner_position(i), b.tape_begin, b.tape_count).f;
+  float f = inward() * evaluate(corner_position(i) + shift * BESIDE, b.tape_begin, b.tape_count).f;
   samples[place * CORNERS_PER_BRICK + sample_place(corner)] = is_cap(i) ? cap_value() : f;
 }

@@ -54,6 +54,10 @@ void main() {
     least = is_crowded ? max(least, p - CROWDED_REACH * size) : least;
     most = is_crowded ? min(most, p + CROWDED_REACH * size) : most;
 
+    // A vertex on a crease in its cell's face keeps its margin to it, and may have none of the solid in its cell.
+    const uint IN_FACE = VERTEX_ON_CREASE | VERTEX_BY_SURFACE;
+    bool keeps_off = (vertex & IN_FACE) == IN_FACE;
+
     // Newton's method along the gradient within the cell; where that does not settle, bisection between the last point
     // and the corner of the other side.
     vec3 inner = inside, outer = outside;
@@ -69,12 +73,14 @@ void main() {
       vec3 held = clamp(newton, least, most);
       bvec3 is_held = notEqual(held, newton);
       vec3 d_held = mix(vec3(0.0), a.d, is_held), d_free = a.d - d_held;
-      vec3 along = -(excess + dot(d_held, held - p)) / max(dot(d_free, d_free), 1e-30) * d_free;
+      // Not where all but rounding of the gradient is held: that would lead along the surface, to the cell's end.
+      float free2 = max(dot(d_free, d_free), max(1e-6 * slope2, 1e-30));
+      vec3 along = -(excess + dot(d_held, held - p)) / free2 * d_free;
       newton = clamp(mix(p + limited(along, size), held, is_held), least, most);
       // Where the surface lies between the cell's face and the margin, the vertex can't come closer.
       vec3 moved = abs(newton - p);
       bool is_stuck = max(max(moved.x, moved.y), moved.z) <= tolerance * size;
-      done = done || abs(excess) <= (is_stuck ? max(tolerance, 2.0 * MARGIN) : tolerance) * size * sqrt(slope2);
+      done = done || abs(excess) <= (is_stuck || keeps_off ? max(tolerance, 2.0 * MARGIN) : tolerance) * size * sqrt(slope2);
       if (excess > 0.0) inner = p; else outer = p;
       if (step == NEWTON_STEPS - 1) {
         // Keep the side that p is on, and start from the patch's own corner on the other.

@@ -143,8 +143,8 @@ class Culler {
     const Lattice& lattice = request_.lattice;
     const Box low = lattice.box(first(cell.x, 0), first(cell.y, 1), first(cell.z, 2), kBrickCells);
     const Box high = lattice.box(last(cell.x, 0), last(cell.y, 1), last(cell.z, 2), kBrickCells);
-    const dvec3 margin{request_.margin, request_.margin, request_.margin};
-    return {low.min - margin, high.max + margin};
+    const auto along = [](double length) { return dvec3{length, length, length}; };
+    return {low.min - along(request_.margin), high.max + along(request_.margin + request_.above)};
   }
 
   bool is_kept(const Cell& cell, const Pruned& p) const {

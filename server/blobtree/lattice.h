@@ -59,6 +59,7 @@ struct CullRequest {
   // kSurface: what lies at the lattice's boundary counts as outside, so that the surface closes there.
   bool is_capped = false;
   double margin = 0;  // model units: tapes hold as far around their bricks, too
+  double above = 0;   // model units: the same beyond their upper faces alone, and the surface there counts as theirs
   std::uint64_t max_bricks = ~0ull, max_instructions = ~0ull;
   // Asked now and then, by any of the threads; true gives up with CANCELLED.
   std::function<bool()> cancelled;

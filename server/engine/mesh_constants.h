@@ -15,6 +15,7 @@ struct MeshConstants {
   float iso;
   std::uint32_t flags;  // 1: capped, 2: a signed field
   float tolerance;
+  float shift, near, value_room, slope_room, just_inside;  // engine/mesh_rounding.h
 };
 
 // First vertex and first quad of a brick, or its first fan and 0.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/mesh_rounding.h"
 #include "engine/status_macros.h"
 
 namespace isofield::engine {
@@ -33,6 +34,7 @@ absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshReq
                                           .keep = blobtree::Keep::kSurface,
                                           .iso = request.iso,
                                           .is_capped = request.bounds.has_value(),
+                                          .above = mesh_rounding(tape, lattice, request.iso).shift,
                                           .max_bricks = max_bricks,
                                           .cancelled = cancelled,
                                           .for_each = for_each});

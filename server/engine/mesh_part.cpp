@@ -13,7 +13,9 @@
 #include "engine/mesh_constants.h"
 #include "engine/mesh_creases.h"
 #include "engine/mesh_lattice.h"
+#include "engine/mesh_rounding.h"
 #include "engine/mesh_samples.h"
+#include "engine/mesh_settle.h"
 #include "engine/mesh_triangles.h"
 #include "engine/session.h"
 #include "engine/status_macros.h"
@@ -34,8 +36,6 @@ constexpr std::uint32_t kCorners = kEdgeCorners * kEdgeCorners * kEdgeCorners;
 // it; some 80 ms of gradient blends on two cores.
 constexpr std::uint32_t kSlab = 16'384;
 constexpr std::uint64_t kSlabInstructions = 1u << 16;
-// Parts of bricks' samples that a workgroup of shaders/mesh_sample.comp takes, and of shaders/mesh_share.comp.
-constexpr std::uint32_t kSamplePartsPerGroup = 8;
 using Constants = MeshConstants;
 using Pair = MeshStart;
 
@@ -64,6 +64,7 @@ class Run {
                   static_cast<float>(is_signed ? -request.iso : request.iso),
                   (request.bounds ? 1u : 0u) | (is_signed ? 2u : 0u),
                   static_cast<float>(request.tolerance)};
+    set_rounding(mesh_rounding(scene.tape(), lattice, request.iso), constants_);
   }
 
   absl::StatusOr<PartMesh> mesh() {
@@ -123,7 +124,6 @@ class Run {
   absl::Status sample() {
     const auto total = static_cast<std::uint32_t>(list_.bricks.size());
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* share, kernels_.get(shaders::kMeshShare));
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* classify, kernels_.get(shaders::kMeshClassify));
     for (std::uint32_t first = 0, count = 0; first < total; first += count) {
       ISOFIELD_RETURN_IF_ERROR(check(0.1 + 0.5 * first / total));
       count = slab_from(first);
@@ -139,10 +139,11 @@ class Run {
           group.push_back({b, (b - first) * kSampleParts + static_cast<std::uint32_t>(std::countr_zero(left))});
         }
       }
-      ISOFIELD_RETURN_IF_ERROR(tapes_->run(session, shaders::kMeshSample, constants_, jobs, kSamplePartsPerGroup,
+      Constants constants = constants_;
+      constants.shift = 0;
+      ISOFIELD_RETURN_IF_ERROR(tapes_->run(session, shaders::kMeshSample, constants, jobs, kSamplePartsPerGroup,
                                            {{4, &bricks_}, {6, &samples}}, keep));
       session.commands().barrier();
-      Constants constants = constants_;
       constants.count = static_cast<std::uint32_t>(parts.taken_over.size());
       if (constants.count > 0) {
         ISOFIELD_ASSIGN_OR_RETURN(Buffer copies, session.upload(std::span(parts.taken_over)));
@@ -151,14 +152,35 @@ class Run {
                                         (constants.count + kSamplePartsPerGroup - 1) / kSamplePartsPerGroup));
         session.commands().barrier();
       }
-      constants.first = first;
-      constants.count = count;
-      ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(*classify, {{4, &bricks_}, {5, &samples}, {6, &cases_}},
-                                                           constants, mesh_groups(std::uint64_t{count} * kCells / 4)));
+      const Slab& slab = slabs_.emplace_back(first, count, std::move(samples));
+      std::vector<std::uint32_t> is_near(count);
+      ISOFIELD_ASSIGN_OR_RETURN(const Buffer near_bricks, session.upload(std::span(is_near)));
+      ISOFIELD_RETURN_IF_ERROR(classify(session, slab, near_bricks));
+      ISOFIELD_RETURN_IF_ERROR(session.download(near_bricks, std::span(is_near)));
       ISOFIELD_RETURN_IF_ERROR(session.run());
-      slabs_.push_back({first, count, std::move(samples)});
+      ISOFIELD_RETURN_IF_ERROR(settle(slab, is_near, near_bricks));
     }
     return absl::OkStatus();
+  }
+
+  absl::Status classify(Session& session, const Slab& slab, const Buffer& near_bricks) {
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshClassify));
+    Constants constants = constants_;
+    constants.first = slab.first;
+    constants.count = slab.count;
+    return session.commands().dispatch(*kernel, {{4, &bricks_}, {5, &slab.samples}, {6, &cases_}, {7, &near_bricks}},
+                                       constants, mesh_groups(std::uint64_t{slab.count} * kCells / 4));
+  }
+
+  // Once more where samples were put on one side of the surface.
+  absl::Status settle(const Slab& slab, std::span<const std::uint32_t> is_near, const Buffer& near_bricks) {
+    ISOFIELD_ASSIGN_OR_RETURN(const bool has_settled,
+                              settle_samples(device_, kernels_, *tapes_, constants_, bricks_, slab.first, is_near,
+                                             slab.samples));
+    if (!has_settled) return absl::OkStatus();
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    ISOFIELD_RETURN_IF_ERROR(classify(session, slab, near_bricks));
+    return session.run();
   }
 
   absl::Status connect() {

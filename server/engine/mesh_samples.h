@@ -11,6 +11,8 @@ namespace isofield::engine {
 // The corners of a brick in parts of up to eight (corner_of_part() of shaders/lib/mesh_samples.glsl): those at which it
 // begins in parts 0 to 7, those on its upper faces, which are others' own, in parts 8 to 15.
 inline constexpr std::uint32_t kSampleParts = 16, kOwnSampleParts = 8;
+// Parts that a workgroup of shaders/mesh_sample.comp takes, and of mesh_share.comp and mesh_settle.comp.
+inline constexpr std::uint32_t kSamplePartsPerGroup = 8;
 
 struct SampleParts {
   std::vector<std::uint16_t> evaluated;  // of each brick: its parts, a bit each

@@ -15,7 +15,20 @@ layout(push_constant) uniform Constants {
   float iso;       // of a field that is greater inside: of a signed one, its negative's
   uint flags;
   float tolerance;   // of vertices' distances from the surface, in cells
+  float shift;       // how far beside a lattice point the field decides for it, in model units (below)
+  float near;        // samples this near to iso may be on the surface
+  float value_room;  // of those: how far rounding alone takes values from iso,
+  float slope_room;  // and how far it takes points, as a part of `shift`
+  float just_inside;
 };
+
+// Samples that rounding might have put on either side of the surface are on the side of a point beside the lattice
+// point, the same way everywhere: so a face that lies in a plane of the lattice is on one side of all of it, and two
+// solids that share the face are one. The way is upwards, within the brick that the point begins, and far from every
+// plane whose normal has small whole numbers as coordinates. Such samples are stored as `iso` or, on the inside, as
+// `just_inside`, the number above it, and no others are.
+const vec3 BESIDE = vec3(0.346, 0.534, 0.772);
+bool is_on_surface(float f) { return f == iso || f == just_inside; }
 
 // Corners on the lattice's boundary count as outside.
 bool is_capped() { return (flags & 1u) != 0u; }
@@ -58,10 +71,11 @@ uint own_crossings(uint inside) {
 
 // A vertex as listed: bits 0-7 its cell in the brick, 8-9 its patch; bit 10 whether the lattice's boundary cuts it off,
 // bit 11 whether it lies on a crease, and then in bits 12-23 three edges whose crossings face apart; bit 24 whether it
-// shares its cell with others.
+// shares its cell with others; bit 25 whether an edge that places it begins on the surface.
 const uint VERTEX_ON_CAP = 1u << 10u;
 const uint VERTEX_ON_CREASE = 1u << 11u;
 const uint VERTEX_IS_CROWDED = 1u << 24u;
+const uint VERTEX_BY_SURFACE = 1u << 25u;
 uint vertex_cell(uint vertex) { return vertex & 0xffu; }
 uint vertex_patch(uint vertex) { return vertex >> 8u & 3u; }
 uint vertex_edge(uint vertex, uint n) { return vertex >> (12u + 4u * n) & 15u; }

@@ -6,26 +6,31 @@
 
 layout(std430, binding = 6) readonly buffer Cells { uint cells_in[]; };
 layout(std430, binding = 8) readonly buffer Starts { uvec2 starts[]; };
-// Of bricks that know theirs. Of length 1 + (place along the edge, within [0, 1]) along the unit outward normal.
+// Of bricks that know theirs. Along the unit outward normal, of length 1 + (place along the edge, within [0, 1]), and
+// longer by 2 where the inner end of the edge is on the surface.
 layout(std430, binding = 10) readonly buffer Crossings { float crossings[]; };
 
 struct Crossing {
   vec3 at;  // in cells, from the low corner of the cell that was asked
   vec3 normal;
+  bool begins_on_surface;
 };
+
+bool begins_on_surface(float crossing_length) { return crossing_length > 2.5; }
+float place_along(float crossing_length) { return crossing_length - (begins_on_surface(crossing_length) ? 3.0 : 1.0); }
 
 // Of a crossed edge of a cell: the quads of an edge are those of the cell that has it at its low corner.
 Crossing crossing_of(uint b, uvec3 cell, uint edge) {
   uvec3 low = edge_offset(edge);
   uint axis = edge >> 2u;
   CellRef owner = cell_ref(b, ivec3(cell + low));
-  if (owner.brick == NO_BRICK) return Crossing(vec3(0.5), vec3(axis_vector(axis)));  // unreachable: a cell with a crossing edge is never culled
+  if (owner.brick == NO_BRICK) return Crossing(vec3(0.5), vec3(axis_vector(axis)), false);  // unreachable: a cell with a crossing edge is never culled
   uint state = cells_in[owner.brick * CELLS_PER_BRICK + owner.cell];
   uint before = own_crossings(state) & ((1u << axis) - 1u);
   uint q = starts[owner.brick].y + cell_quad(state) + uint(bitCount(before));
   vec3 v = vec3(crossings[3u * q], crossings[3u * q + 1u], crossings[3u * q + 2u]);
   float len = length(v);
-  return Crossing(vec3(low) + (len - 1.0) * vec3(axis_vector(axis)), v / len);
+  return Crossing(vec3(low) + place_along(len) * vec3(axis_vector(axis)), v / len, begins_on_surface(len));
 }
 
 // SMOOTH: of the bricks that the kernel is about none may have creases.

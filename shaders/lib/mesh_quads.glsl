@@ -53,6 +53,8 @@ Quad quad(uint q) {
 }
 
 // Where the surface crosses the quad's edge, from its low end, in cells.
-float crossing_place(uint q) { return length(vec3(crossings[3u * q], crossings[3u * q + 1u], crossings[3u * q + 2u])) - 1.0; }
+float crossing_place(uint q) {
+  return place_along(length(vec3(crossings[3u * q], crossings[3u * q + 1u], crossings[3u * q + 2u])));
+}
 
 #endif

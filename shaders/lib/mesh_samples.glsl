@@ -5,6 +5,7 @@
 #include "mesh_constants.glsl"
 
 const uint PART_CORNERS = 8u;
+const uint SAMPLE_PARTS = 16u;
 
 // Parts 0 to 7: the corners at which the brick begins. 8 to 13: two for each upper face, without its upper edges. 14: the
 // edges at the upper x and y, and x and z. 15: that at the upper y and z, and the last corner, four times.
