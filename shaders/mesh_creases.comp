@@ -22,6 +22,9 @@ const float FIRST_PULL = 0.35, PULL = 0.07;
 const float BEYOND = 0.1, BEYOND_FACE = 0.3;
 // Of the meeting point. Little: the way that a face which holds the vertex leaves it may meet a side at a few degrees.
 const float DAMPING = 1e-4;
+// A third side may end the crease within the cell and cross none of its edges. It is looked for where the crease would
+// leave the cell: it has cut the surface off there by more than this, in cells, and stands across the crease.
+const float LEAST_CUT = 0.02, LEAST_ACROSS = 0.35;
 
 void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
@@ -45,24 +48,61 @@ void main() {
     vec3 x = (vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]) - low) / size;
     float first_beyond = (vertex & VERTEX_BY_SURFACE) != 0u ? BEYOND_FACE : BEYOND;
     Planes planes = no_planes();
-    for (int step = 0; step < 3 * ROUNDS; ++step) {
-      int side = step % 3;
-      vec3 at_side = side == 0 ? from0.at : side == 1 ? from1.at : from2.at;
-      vec3 facing = side == 0 ? from0.normal : side == 1 ? from1.normal : from2.normal;
-      vec3 outwards = at_side - 0.5;
-      bool is_first = step < 3;
-      vec3 q = mix(x, at_side, is_first ? FIRST_PULL : PULL) +
-               (is_first ? first_beyond : BEYOND) * (outwards - dot(outwards, facing) * facing);
-      Field a = evaluate(low + q * size, at.tape_begin, at.tape_count);
-      vec3 d = inward() * size * a.d;
-      float inverse = inversesqrt(max(dot(d, d), 1e-30));
-      vec3 n = -d * inverse;
-      add_plane(planes, n, dot(n, q - x) + (inward() * a.f - iso) * inverse);
-      if (side == 2) {
-        x += meeting_point(planes, x, DAMPING);
-        planes = no_planes();
+    vec3 n0 = vec3(0.0), n1 = vec3(0.0), n2 = vec3(0.0);  // of the sides, as last seen
+    // Along the crease: where it leaves the cell on either way, and where a third side ends it.
+    vec3 ahead = vec3(0.0);
+    float back = 0.0, forth = 0.0, end = 0.0;
+    bool may_end = false, ends = false;
+    // First the crease, then its end; one loop within for both, so that the kernel holds the tape's code once.
+    for (int stage = 0; stage < 2; ++stage) {
+      if (stage == 1) {
+        ahead = cross(n0, n1);
+        float turn2 = dot(ahead, ahead), third = dot(n2, ahead);
+        may_end = on_crease && turn2 > 0.03 && third * third < 0.01 * turn2;
+        ahead *= inversesqrt(max(turn2, 1e-12));
+        vec3 slope = mix(ahead, vec3(1e-6), lessThan(abs(ahead), vec3(1e-6)));
+        vec3 to_least = (vec3(MARGIN) - x) / slope, to_most = (vec3(1.0 - MARGIN) - x) / slope;
+        vec3 from_most = min(to_least, to_most), to_first = max(to_least, to_most);
+        back = max(max(from_most.x, from_most.y), from_most.z);
+        forth = min(min(to_first.x, to_first.y), to_first.z);
+      }
+      int steps = stage == 0 ? 3 * ROUNDS : 3;
+      for (int step = 0; step < steps && subgroupAny(stage == 0 ? on_crease : step < 2 ? may_end : ends); ++step) {
+        int side = step % 3;
+        vec3 at_side = side == 0 ? from0.at : side == 1 ? from1.at : from2.at;
+        vec3 facing = side == 0 ? from0.normal : side == 1 ? from1.normal : from2.normal;
+        vec3 outwards = at_side - 0.5;
+        bool is_first = step < 3;
+        vec3 q = mix(x, at_side, is_first ? FIRST_PULL : PULL) +
+                 (is_first ? first_beyond : BEYOND) * (outwards - dot(outwards, facing) * facing);
+        // The last time from close by: a side may be curved.
+        float along = step == 0 ? back : step == 1 ? forth : mix(end, end > 0.0 ? forth : back, PULL);
+        q = stage == 0 ? q : x + along * ahead;
+        Field a = evaluate(low + q * size, at.tape_begin, at.tape_count);
+        vec3 d = inward() * size * a.d;
+        float inverse = inversesqrt(max(dot(d, d), 1e-30));
+        vec3 n = -d * inverse;
+        float depth = (inward() * a.f - iso) * inverse;
+        if (stage == 0) {
+          add_plane(planes, n, dot(n, q - x) + depth);
+          n0 = side == 0 ? n : n0;
+          n1 = side == 1 ? n : n1;
+          n2 = side == 2 ? n : n2;
+          if (side == 2) {
+            x += meeting_point(planes, x, DAMPING);
+            planes = no_planes();
+          }
+        } else {
+          float across = dot(n, ahead);
+          bool stands_across = may_end && abs(across) > LEAST_ACROSS;
+          float found = along + depth / (stands_across ? across : 1.0);
+          bool is_end = stands_across && (step == 2 ? ends : abs(depth) > LEAST_CUT) && found > back && found < forth;
+          end = is_end && (step == 2 || !ends || abs(found) < abs(end)) ? found : end;
+          ends = ends || is_end;
+        }
       }
     }
+    x += end * ahead;
     if (on_crease) {
       vec3 p = low + x * size;
       positions[3u * v] = p.x;
