@@ -191,6 +191,12 @@ class Layout {
       case Operator::kSuperelliptic:
       case Operator::kBtk:
         out[0] = {f(o.what->exponent), omega(o), 0, 0};
+        if (o.op == Operator::kSuperelliptic) {
+          // The base whose power is 1e12, and what float32 leaves of it as a part of it: the exponent multiplies that.
+          const double deepest = std::pow(1e12, 1 / o.what->exponent);
+          out[0][2] = f(deepest);
+          out[0][3] = f(deepest / out[0][2] - 1);
+        }
         for (std::uint32_t i = 0; i < o.operands; ++i) {
           const operators::Term& t = o.what->term(i);
           // The third number is the power; an operator of weights 1 needs no other.

@@ -83,9 +83,27 @@ Polynomial smooth_profile_polynomial() {
   return fit_polynomial([](double u) { return Silhouette{}.profile(u).v; }, 0, 1, kProfileTerms);
 }
 
+Polynomial logarithm_polynomial() {
+  const auto rest = [](double f) {
+    if (std::abs(f) > 0.05) return (std::log1p(f) - f + 0.5 * f * f) / (f * f * f) * std::numbers::log2e;
+    double sum = 0;  // the series, where the difference would cancel
+    for (int n = 14; n >= 3; --n) sum = 1.0 / n - f * sum;
+    return sum * std::numbers::log2e;
+  };
+  return fit_polynomial(rest, std::numbers::sqrt2 / 2 - 1, std::numbers::sqrt2 - 1, kLogarithmTerms);
+}
+
+Polynomial exponential_polynomial() {
+  return fit_polynomial([](double y) { return std::exp2(y); }, -0.5, 0.5, kExponentialTerms);
+}
+
+std::string value_glsl(const std::string& name, const Polynomial& polynomial) {
+  return sum_by_pairs(name + "_value", polynomial);
+}
+
 std::string polynomial_glsl(const std::string& name, const Polynomial& polynomial) {
   const Polynomial slope = derivative(polynomial);
-  return sum_by_pairs(name + "_value", polynomial) + sum_by_pairs(name + "_slope", slope) +
+  return value_glsl(name, polynomial) + sum_by_pairs(name + "_slope", slope) +
          sum_by_pairs(name + "_bend", derivative(slope)) + "vec3 " + name + "(float s) { return vec3(" + name +
          "_value(s), " + name + "_slope(s), " + name + "_bend(s)); }\n";
 }

@@ -1,5 +1,7 @@
-// The fixed profiles of the gradient blend as polynomials: on lavapipe a table look-up costs as much as 24 terms (each
-// invocation loads its own cell), so that the blend's two profiles run 1.45 times as fast this way.
+// Fixed functions as polynomials. The profiles of the gradient blend, since on lavapipe a table look-up costs as much as
+// 24 terms (each invocation loads its own cell), so that the blend's two profiles run 1.45 times as fast this way; and
+// the two functions that powers are made of, since Vulkan promises too little of the driver's own
+// (shaders/lib/powers.glsl).
 #pragma once
 
 #include <functional>
@@ -21,8 +23,16 @@ Polynomial phi_polynomial();
 // The smooth silhouette's profile q on [0, 1].
 Polynomial smooth_profile_polynomial();
 
-// GLSL of `vec3 name(float s)`: value, first and second derivative with respect to s. Summed by pairs, since a chain of
-// 24 dependent steps waits for itself.
+// R in log2(1 + f) = log2(e) (f - f^2/2) + f^3 R(f), for 1 + f within [1/sqrt(2), sqrt(2)]: f^3 R is within 2e-9.
+inline constexpr int kLogarithmTerms = 9;
+Polynomial logarithm_polynomial();
+// 2^y on [-1/2, 1/2], exactly 1 at 0, within 2e-9. The number of terms is odd, so that 0 is one of the nodes.
+inline constexpr int kExponentialTerms = 7;
+Polynomial exponential_polynomial();
+
+// GLSL of `float name_value(float s)`. Summed by pairs, since a chain of 24 dependent steps waits for itself.
+std::string value_glsl(const std::string& name, const Polynomial& polynomial);
+// The same, and of `vec3 name(float s)`: value, first and second derivative with respect to s.
 std::string polynomial_glsl(const std::string& name, const Polynomial& polynomial);
 
 }  // namespace isofield::operators

@@ -4,6 +4,8 @@
 #ifndef DUAL_GLSL
 #define DUAL_GLSL
 
+#include "powers.glsl"
+
 #ifdef WITH_GRADIENT
 #define Dual vec4
 Dual dual(float v) { return vec4(v, 0.0, 0.0, 0.0); }
@@ -33,7 +35,7 @@ Dual square_root(Dual a) {
 // a >= 0; 0 at 0.
 Dual power(Dual a, float exponent) {
   float x = value_of(a);
-  float p = x > 0.0 ? exp2((exponent - 1.0) * log2(x)) : 0.0;
+  float p = x > 0.0 ? power_of(x, 0.0, exponent - 1.0) : 0.0;
   return chain(a, p * x, exponent * p);
 }
 Dual select_dual(Dual a, Dual b, bool take_b) {

@@ -271,7 +271,7 @@ Field blend_superelliptic(Field x[MAX_OPERANDS], uint mask, uint record, Angle a
     float range = operation_at(take_operand(mask, record, is_there)).w;
     Dual r = dual(range);
     if (by_angle) r = angular_range(range, angle.cosine, head.y);
-    Bracket b = superelliptic_bracket(dual_of(x[j]), r, head.x);
+    Bracket b = superelliptic_bracket(dual_of(x[j]), r, head.x, head.zw);
     g = g - select_dual(dual(0.0), b.value, is_there);
     partials[j] = select_dual(dual(0.0), b.fall, is_there);
   }
@@ -283,15 +283,15 @@ Field ricci(Field a, Field b, vec2 exponent) {
   float t = exponent.x;
   float hi = max(a.f, b.f), lo = min(a.f, b.f);
   float ratio = hi > 0.0 ? lo / hi : 0.0;
-  float power = ratio > 0.0 ? exp2(t * log2(ratio)) : 0.0;
-  float g = hi * (power > 0.0 ? exp2(exponent.y * log2(1.0 + power)) : 1.0);
+  float power = ratio > 0.0 ? power_of(ratio, 0.0, t) : 0.0;
+  float growth = power > 0.0 ? power_of(1.0 + power, 0.0, exponent.y) : 1.0;
+  float g = hi * growth;
+  // The partials (a/g)^(t - 1) and (b/g)^(t - 1): of the larger field growth^(1 - t).
+  float w_hi = growth / (1.0 + power), w_lo = ratio > 0.0 ? w_hi * (power / ratio) : 0.0;
   float inverse = g > 0.0 ? 1.0 / g : 0.0;
   float x = a.f * inverse, y = b.f * inverse;
-  float x1 = x > 0.0 ? exp2((t - 1.0) * log2(x)) : 0.0;
-  float y1 = y > 0.0 ? exp2((t - 1.0) * log2(y)) : 0.0;
-  // A field of 0 leaves the other untouched, to the bit; at t = 1 both weights are 1.
-  x1 = b.f <= 0.0 || t == 1.0 ? 1.0 : x1;
-  y1 = a.f <= 0.0 || t == 1.0 ? 1.0 : y1;
+  // At t = 1 both are 1.
+  float x1 = t == 1.0 ? 1.0 : a.f < b.f ? w_lo : w_hi, y1 = t == 1.0 ? 1.0 : a.f < b.f ? w_hi : w_lo;
   Field r = zero_field();
   r.f = g;
   r.d = x1 * a.d + y1 * b.d;

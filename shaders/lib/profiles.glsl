@@ -5,7 +5,7 @@
 #define PROFILES_GLSL
 
 #include "parameters.glsl"
-#include "profile_polynomials.glsl"  // written at build time
+#include "polynomials.glsl"  // written at build time
 
 // Mirrors server/operators/profile_table.h.
 const int SILHOUETTE_CELLS = 512;

@@ -75,6 +75,7 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
       is_blend = is_blend || is_active;
       // The least operand's bracket is 1 at the start, whatever the rounding says.
       t = i == least && step == 0 ? 1.0 : t;
+      // As exact as a step needs: the last step is the one in duals.
       float q = t > 0.0 ? exp2((terms[i].power - 1.0) * log2(t)) : 0.0;
       excess += q * max(t, 0.0);
       slope += terms[i].power * q * m * inverse_r;
@@ -91,7 +92,7 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
     Dual inverse_r = reciprocal(select_dual(dual(1.0), terms[i].range, is_there)), m = reciprocal(terms[i].inverse_weight);
     Dual t = dual(1.0) + times(h * m - terms[i].x, inverse_r);
     bool is_active = is_there && value_of(t) > 0.0;
-    float q = is_active ? exp2((terms[i].power - 1.0) * log2(value_of(t))) : 0.0;
+    float q = is_active ? power_of(value_of(t), 0.0, terms[i].power - 1.0) : 0.0;
     excess += chain(t, q * max(value_of(t), 0.0), terms[i].power * q);
     slope += terms[i].power * q * value_of(m) * value_of(inverse_r);
   }

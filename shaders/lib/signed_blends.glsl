@@ -29,19 +29,29 @@ Binary pasko_blend(Dual x1, Dual x2, vec3 a) {
 struct Bracket {
   Dual value, fall;
 };
-// [1 - x/r]_+^t and minus its derivative.
-Bracket superelliptic_bracket(Dual x, Dual range, float t) {
+// What the quotient q of x and r lacks of it: t multiplies q's relative error. From the exact product of q and r, by
+// their leading bits.
+float missing_of_quotient(float q, float x, float r, float inverse_r) {
+  precise float q1 = leading(q), q2 = q - q1, r1 = leading(r), r2 = r - r1;
+  precise float rest = ((x - q1 * r1) - q1 * r2) - q2 * r;
+  return rest * inverse_r;
+}
+
+// [1 - x/r]_+^t and minus its derivative. Above u = 1 - x/r = deepest, where the power is 1e12, it goes on straight;
+// `deepest` has that and, as a part of it, what it lacks.
+Bracket superelliptic_bracket(Dual x, Dual range, float t, vec2 deepest) {
   Dual inverse = reciprocal(range);
-  Dual u = dual(1.0) - times(x, inverse);
+  Dual q = times(x, inverse), u = dual(1.0) - q;
   bool is_out = value_of(u) <= 0.0;
   u = select_dual(u, dual(1.0), is_out);
-  // Above 1e12 it goes on straight.
-  float deepest = exp2(39.863137 / t), slope = t * 1e12 / deepest;
-  bool is_deep = value_of(u) > deepest;
-  Dual above = u - dual(deepest);
-  u = select_dual(u, dual(1.0), is_deep);
-  Bracket b = Bracket(select_dual(power(u, t), dual(1e12) + slope * above, is_deep),
-                      times(select_dual(t * power(u, t - 1.0), dual(slope), is_deep), inverse));
+  bool is_deep = value_of(u) > deepest.x;
+  float within = is_deep ? deepest.x : value_of(u);
+  precise float missing = (1.0 - value_of(u)) - value_of(q);
+  missing -= missing_of_quotient(value_of(q), value_of(x), value_of(range), value_of(inverse));
+  float tail = is_out ? 0.0 : is_deep ? deepest.y : missing / within;
+  float p = power_of(within, tail, t - 1.0);
+  Bracket b = Bracket(chain(u, p * (within + within * tail + t * (value_of(u) - within)), t * p),
+                      times(chain(u, t * p, is_deep ? 0.0 : t * (t - 1.0) * p / within), inverse));
   return Bracket(select_dual(b.value, dual(0.0), is_out), select_dual(b.fall, dual(0.0), is_out));
 }
 

@@ -46,6 +46,22 @@ TEST(Polynomial, ProfilesAreClose) {
   expect_close("smooth profile", smooth_profile_polynomial(), 0, 1, [](double u) { return Silhouette{}.profile(u); });
 }
 
+TEST(Polynomial, PowersAreMadeOfExactParts) {
+  const Polynomial logarithm = logarithm_polynomial(), exponential = exponential_polynomial();
+  const auto at = [](const Polynomial& p, double s) {
+    double value = 0;
+    for (std::size_t k = p.size(); k-- > 0;) value = value * s + p[k];
+    return value;
+  };
+  for (double s = -1; s <= 1; s += 1e-3) {
+    const double low = std::sqrt(0.5) - 1, high = std::sqrt(2) - 1, f = low + (high - low) * (s + 1) / 2;
+    const double log2_e = 1 / std::log(2);
+    EXPECT_NEAR(log2_e * (f - f * f / 2) + f * f * f * at(logarithm, s), std::log2(1 + f), 2e-9) << f;
+    EXPECT_NEAR(at(exponential, s), std::exp2(s / 2), 2e-9) << s;
+  }
+  EXPECT_EQ(static_cast<float>(exponential[0]), 1.0f);
+}
+
 TEST(Polynomial, PhiMirrors) {
   for (double x = 0.01; x < 1; x += 0.01) EXPECT_NEAR(phi(x).v, phi(2 - x).v - 1 + x, 1e-6) << x;
 }
