@@ -17,7 +17,9 @@ const uint STEERING_NONE = 0u, STEERING_THETA = 1u, STEERING_ALPHA = 2u;
 layout(push_constant) uniform Constants {
   uint count;
   uint operands;
-  uint columns;   // of a row of arguments: the fields, then what steers, then the ratio of the gradients' lengths
+  // Of a row of arguments: the fields; then tan(theta) or alpha, or, of an operator that follows an angle, its cosine and
+  // its sine and the ratio of the gradients' lengths. The host has those functions to the last bit, Vulkan to 2^-11.
+  uint columns;
   uint steering;
   uint code;      // as of an instruction
   uint record;
@@ -32,11 +34,11 @@ Field operand(float f, uint slot) {
   return a;
 }
 
-// The blend at tan(theta) or through the opening; slot 2 of the direction is the derivative by theta or alpha.
+// The blend at `by` = tan(theta), or through the opening at alpha; slot 2 of the direction is the derivative by theta or
+// alpha.
 Field steered(Field a, Field b, uint op, float by) {
   vec4 operation = operation_at(record);
-  vec2 t = vec2(tan(by), 0.0);
-  t.y = 1.0 + t.x * t.x;
+  vec2 t = vec2(by, 1.0 + by * by);
   if (steering == STEERING_ALPHA) {
     // A difference turns its first operand inside out, and its gradient round.
     bool is_turned = (code >> 16u & 3u) == FORM_DIFFERENCE;
@@ -62,8 +64,9 @@ Field result(uint row, uint slot) {
   float by = steering != STEERING_NONE ? arguments[at + operands] : 0.0;
   Angle angle = no_angle();
   if (may_follow_angle()) {
-    angle.cosine = vec4(cos(by), 0.0, 0.0, -sin(by)) * ((mode & 3u) == FORM_DIFFERENCE ? -1.0 : 1.0);
-    angle.ratio = dual(clamp(arguments[at + operands + 1u], 1.0 / MOST_RATIO, MOST_RATIO));
+    float sine = arguments[at + operands + 1u];
+    angle.cosine = vec4(by, 0.0, 0.0, -sine) * ((mode & 3u) == FORM_DIFFERENCE ? -1.0 : 1.0);
+    angle.ratio = dual(clamp(arguments[at + operands + 2u], 1.0 / MOST_RATIO, MOST_RATIO));
   }
   bool is_btk = is_operator(op, OPERATOR_BTK);
   Field r = zero_field();

@@ -1,6 +1,8 @@
 #include "engine/operator_evaluator.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "blobtree/operation.h"
 #include "engine/resident_scene.h"
@@ -50,6 +52,25 @@ absl::Status run(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes
   return absl::OkStatus();
 }
 
+// Rows of arguments as the kernel takes them: with tan(theta) in place of theta, or, of an operator that follows an angle,
+// its cosine and sine in place of the angle.
+std::vector<float> device_rows(std::span<const float> arguments, std::size_t operands, bool by_angle) {
+  const std::size_t columns = operands + (by_angle ? 2 : 1);
+  std::vector<float> rows;
+  rows.reserve(arguments.size() / columns * (columns + (by_angle ? 1 : 0)));
+  for (std::size_t at = 0; at < arguments.size(); at += columns) {
+    const float* row = &arguments[at];
+    rows.insert(rows.end(), row, row + operands);
+    const double angle = row[operands];
+    if (by_angle) {
+      rows.insert(rows.end(), {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), row[operands + 1]});
+    } else {
+      rows.push_back(static_cast<float>(std::tan(angle)));
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 absl::Status OperatorEvaluator::evaluate(const std::shared_ptr<const operators::Operator>& op, std::size_t operands,
@@ -57,7 +78,12 @@ absl::Status OperatorEvaluator::evaluate(const std::shared_ptr<const operators::
                                          std::span<float> results) {
   const auto k = static_cast<std::uint32_t>(operands);
   const std::uint32_t is_steered = steering != Steering::kNone ? 1 : 0;
-  const Constants constants{.operands = k, .columns = k + is_steered + (op->by_angle ? 1u : 0u), .steering = steering};
+  const Constants constants{.operands = k, .columns = k + is_steered + (op->by_angle ? 2u : 0u), .steering = steering};
+  std::vector<float> rows;
+  if (op->by_angle || steering == Steering::kTheta) {
+    rows = device_rows(arguments, operands, op->by_angle);
+    arguments = rows;
+  }
   return run(device_, kernels_, volumes_, blobtree::operator_tape(op, operators::law_of(op->kind), k), constants,
              1 + k + is_steered, arguments, results);
 }

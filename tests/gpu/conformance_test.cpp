@@ -67,6 +67,49 @@ TEST(Conformance, EveryOperatorIsTheSameOnTheDevice) {
   }
 }
 
+// A power multiplies the relative error of its logarithm by the exponent, and that of its base: where a driver's log2 is
+// off by 2^-21, as it may be, values were off by 3e-5.
+TEST(Conformance, PowersKeepTheirDigitsAtTheGreatestExponents) {
+  std::vector<Case> all;
+  for (const double t : {1.0001, 7.3, 31.0, 64.0}) {
+    Operator op = of_kind(Kind::kRicci);
+    op.exponent = t;
+    all.push_back({"ricci " + std::to_string(t), op});
+    op = of_kind(Kind::kSuperelliptic);
+    op.exponent = t;
+    op.terms = {{0.75, 2, 1}, {1.25, 2, 1}};  // as float32 has them
+    all.push_back({"superelliptic " + std::to_string(t), op});
+    op = of_kind(Kind::kBtk);
+    op.terms = {{1, t, 1}, {0.7, t, 0.4}, {1.3, 2, 2}};
+    all.push_back({"btk " + std::to_string(t), op, 3});
+  }
+  for (const Case& c : all) {
+    SCOPED_TRACE(c.name);
+    const bool is_signed = operators::law_of(c.op.kind) == Law::kSigned;
+    test_support::Random random(19);
+    std::vector<float> rows;
+    constexpr int kRows = 10'000;
+    for (std::size_t i = 0; i < kRows * c.operands; ++i) {
+      rows.push_back(static_cast<float>(is_signed ? random.number(-1.5, 1) : random.number(0, 1)));
+    }
+    const std::vector<float> results = on_device(c, rows);
+    double worst = 0, worst_partial = 0;
+    for (int i = 0; i < kRows; ++i) {
+      const auto at = rows.begin() + static_cast<std::ptrdiff_t>(i * c.operands);
+      const FieldState e = exact(c.op, {at, at + static_cast<std::ptrdiff_t>(c.operands)});
+      const float* r = &results[i * (1 + c.operands)];
+      worst = std::max(worst, std::abs(r[0] - e.field.v) / std::max(1.0, std::abs(e.field.v)));
+      const double partials[] = {e.field.d.x, e.field.d.y, e.field.d.z};
+      for (std::size_t k = 0; k < c.operands; ++k) {
+        worst_partial = std::max(worst_partial, std::abs(r[1 + k] - partials[k]) / std::max(1.0, length(e.field.d)));
+      }
+    }
+    std::cout << c.name << ": values off by " << worst << ", partials by " << worst_partial << "\n";
+    EXPECT_LE(worst, 1e-6);
+    EXPECT_LE(worst_partial, 3e-5);  // the bracket of a btk is 1 + (m h - x) / r, rounded
+  }
+}
+
 // Operators that follow an angle: two fields in space whose gradients have the angle and the ratio of the row.
 TEST(Conformance, OperatorsThatFollowAnAngleAreTheSameOnTheDevice) {
   for (const Case& c : cases()) {
