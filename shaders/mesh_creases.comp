@@ -30,9 +30,9 @@ void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  // By subgroups, whole ones: surplus invocations repeat the last vertex.
-  for (uint from = starts[b].x + gl_SubgroupID * gl_SubgroupSize; from < end; from += gl_WorkGroupSize.x) {
-    uint v = min(from + gl_SubgroupInvocationID, end - 1u);
+  // By subgroups, whole ones (mesh_vertices.comp): surplus invocations repeat the last vertex.
+  for (uint own = starts[b].x + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
+    uint v = min(own, end - 1u);
     uint vertex = vertex_list[v];
     bool on_crease = (vertex & VERTEX_ON_CREASE) != 0u;
     if (!subgroupAny(on_crease)) continue;

@@ -25,9 +25,9 @@ void main() {
   uint slot = jobs[2u * (first + gl_WorkGroupID.x) + 1u];
   Brick at = brick(b);
   uint end = starts[b + 1u].y;
-  // By subgroups, whole ones: surplus invocations repeat the last crossing.
-  for (uint from = starts[b].y + gl_SubgroupID * gl_SubgroupSize; from < end; from += gl_WorkGroupSize.x) {
-    uint q = min(from + gl_SubgroupInvocationID, end - 1u);
+  // By subgroups, whole ones (mesh_vertices.comp): surplus invocations repeat the last crossing.
+  for (uint own = starts[b].y + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
+    uint q = min(own, end - 1u);
     uint code = quad_list[q].y;
     uvec3 cell = cell_in_brick(code & 0xffu), step_along = axis_vector(code >> 8u & 3u);
     bool inside_low = (code >> 10u) != 0u;

@@ -1,6 +1,7 @@
 // Mesher, pass 10: unit outward normals from the field's gradient, one workgroup a brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
 
 #include "interpreter.glsl"
 #include "mesh_constants.glsl"
@@ -16,9 +17,9 @@ void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  // By subgroups, whole ones: surplus invocations repeat the last vertex.
-  for (uint from = starts[b].x + gl_SubgroupID * gl_SubgroupSize; from < end; from += gl_WorkGroupSize.x) {
-    uint v = min(from + gl_SubgroupInvocationID, end - 1u);
+  // By subgroups, whole ones (mesh_vertices.comp): surplus invocations repeat the last vertex.
+  for (uint own = starts[b].x + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
+    uint v = min(own, end - 1u);
     vec3 p = vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
     // Scaled by the cell first: in large units the square of a gradient underflows.
     vec3 n = -inward() * origin.w * field_gradient(evaluate(p, at.tape_begin, at.tape_count));

@@ -30,9 +30,10 @@ void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  // By subgroups, whole ones: surplus invocations repeat the last vertex.
-  for (uint from = starts[b].x + gl_SubgroupID * gl_SubgroupSize; from < end; from += gl_WorkGroupSize.x) {
-    uint v = min(from + gl_SubgroupInvocationID, end - 1u);
+  // By subgroups, whole ones: surplus invocations repeat the last vertex. gl_SubgroupSize would not do for a stride, since
+  // a driver may run fewer invocations together than it says.
+  for (uint own = starts[b].x + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
+    uint v = min(own, end - 1u);
     uint vertex = vertex_list[v];
     uvec3 base = at.at * BRICK_CELLS + cell_in_brick(vertex_cell(vertex));
     uint state = cells_in[b * CELLS_PER_BRICK + vertex_cell(vertex)];

@@ -108,6 +108,15 @@ std::size_t borrow_alignment(const vk::raii::PhysicalDevice& device) {
   return device.getProperties2<vk::PhysicalDeviceProperties2, Limits>().get<Limits>().minImportedHostPointerAlignment;
 }
 
+bool has_subgroup_operations(const vk::raii::PhysicalDevice& device) {
+  using Feature = vk::SubgroupFeatureFlagBits;
+  constexpr vk::SubgroupFeatureFlags kNeeded = Feature::eBasic | Feature::eVote | Feature::eShuffle;
+  const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
+  const auto& subgroups = chain.get<vk::PhysicalDeviceSubgroupProperties>();
+  return (subgroups.supportedOperations & kNeeded) == kNeeded &&
+         (subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute);
+}
+
 DeviceCandidate candidate(const vk::raii::PhysicalDevice& device) {
   const vk::PhysicalDeviceProperties properties = device.getProperties();
   DeviceCandidate c;
@@ -119,6 +128,8 @@ DeviceCandidate candidate(const vk::raii::PhysicalDevice& device) {
   c.storage_buffers_per_stage = properties.limits.maxPerStageDescriptorStorageBuffers;
   c.uniform_bytes = properties.limits.maxUniformBufferRange;
   c.workgroup_invocations = properties.limits.maxComputeWorkGroupInvocations;
+  // A device of Vulkan 1.0 cannot be asked, and is refused for that.
+  c.has_subgroup_operations = properties.apiVersion >= VK_API_VERSION_1_1 && has_subgroup_operations(device);
   return c;
 }
 

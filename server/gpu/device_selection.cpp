@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kStorageBuffers = 16;
 constexpr std::uint32_t kUniformBytes = 65'536;
-constexpr std::uint32_t kInvocations = 128;
+constexpr std::uint32_t kInvocations = 64;
 
 // Empty: fit.
 std::string unfit_because(const DeviceCandidate& c, const std::string& wanted) {
@@ -26,6 +26,7 @@ std::string unfit_because(const DeviceCandidate& c, const std::string& wanted) {
   if (c.workgroup_invocations < kInvocations) {
     return absl::StrCat("runs ", c.workgroup_invocations, " invocations a workgroup, ", kInvocations, " are needed");
   }
+  if (!c.has_subgroup_operations) return "has no votes and shuffles within subgroups of compute shaders";
   if (!wanted.empty() && !absl::StrContains(absl::AsciiStrToLower(c.name), absl::AsciiStrToLower(wanted))) {
     return absl::StrCat("is not named '", wanted, "'");
   }

@@ -19,6 +19,8 @@ struct DeviceCandidate {
   std::uint32_t storage_buffers_per_stage = 0;
   std::uint32_t uniform_bytes = 0;
   std::uint32_t workgroup_invocations = 0;
+  // Votes and shuffles of subgroups in compute shaders.
+  bool has_subgroup_operations = false;
 };
 
 // The place of the best candidate: one whose name holds `wanted` (any case), or, where that is empty, discrete before

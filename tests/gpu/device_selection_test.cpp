@@ -9,7 +9,7 @@ namespace {
 using Type = DeviceCandidate::Type;
 
 DeviceCandidate candidate(const char* name, Type type) {
-  return {name, type, 1, 3, true, 16, 65'536, 256};
+  return {name, type, 1, 3, true, 16, 65'536, 256, true};
 }
 
 TEST(DeviceSelection, PrefersDiscreteDevices) {
@@ -35,11 +35,14 @@ TEST(DeviceSelection, SaysWhyEachWasRefused) {
   display.has_compute_queue = false;
   DeviceCandidate narrow = candidate("Narrow", Type::kIntegrated);
   narrow.uniform_bytes = 16'384;
-  const absl::Status status = select_device({old, small, display, narrow}, "").status();
+  DeviceCandidate lonely = candidate("Lonely", Type::kIntegrated);
+  lonely.has_subgroup_operations = false;
+  const absl::Status status = select_device({old, small, display, narrow, lonely}, "").status();
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
   EXPECT_NE(status.message().find("'Old' has Vulkan 1.0"), absl::string_view::npos) << status;
   EXPECT_NE(status.message().find("'Small' binds 4"), absl::string_view::npos) << status;
   EXPECT_NE(status.message().find("'Narrow' binds 16384 bytes of a uniform"), absl::string_view::npos) << status;
+  EXPECT_NE(status.message().find("'Lonely' has no votes and shuffles"), absl::string_view::npos) << status;
   EXPECT_NE(status.message().find("'Display' has no compute queue"), absl::string_view::npos) << status;
   EXPECT_NE(select_device({}, "").status().message().find("mesa-vulkan-drivers"), absl::string_view::npos);
 }
