@@ -21,6 +21,7 @@ class GpuEnvironment : public testing::Environment {
     // Machines without the layer can run the tests all the same, but not by default.
     options.validation = std::getenv("ISOFIELD_TESTS_WITHOUT_VALIDATION") == nullptr;
     options.always_stage = std::getenv("ISOFIELD_TESTS_STAGE") != nullptr;
+    if (const char* name = std::getenv("ISOFIELD_TESTS_DEVICE")) options.name = name;
     options.on_validation_message = [](const std::string& message) { std::cerr << "validation: " << message << "\n"; };
     auto device = gpu::Device::create(options);
     if (!device.ok()) {
@@ -64,6 +65,10 @@ engine::Workers& workers() {
 
 std::uint64_t scene_count(std::uint64_t many) {
   return std::getenv("ISOFIELD_TESTS_FEW_SCENES") ? std::min<std::uint64_t>(many, 2) : many;
+}
+
+bool few_kernels() {
+  return std::getenv("ISOFIELD_TESTS_FEW_KERNELS") != nullptr;
 }
 
 engine::SceneLease resident(const v1::Scene& scene) {

@@ -18,6 +18,10 @@ engine::Workers& workers();
 // scene has kernels of its own to compile.
 std::uint64_t scene_count(std::uint64_t many);
 
+// Whether ISOFIELD_TESTS_FEW_KERNELS is set: on drivers that take seconds to compile one, tests of every operator take
+// two of the operators in all their forms, and the others as unions.
+bool few_kernels();
+
 // Read, compiled and uploaded; the process ends where that is refused.
 engine::SceneLease resident(const v1::Scene& scene);
 

@@ -42,6 +42,8 @@ std::vector<Case> cases() {
                                : form == Form::kIntersection ? " intersection"
                                                              : " difference";
     const auto add = [&](std::string name, Operator o, std::size_t operands = 2, double tolerance = 3e-6) {
+      const bool has_all_forms = o.kind == Kind::kClean || (o.kind == Kind::kBt2 && !o.by_angle);
+      if (few_kernels() && form != Form::kUnion && !has_all_forms) return;
       o.form = form;
       all.push_back({name + suffix, std::move(o), operands, tolerance});
     };
