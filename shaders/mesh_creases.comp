@@ -51,7 +51,7 @@ void main() {
     vec3 n0 = vec3(0.0), n1 = vec3(0.0), n2 = vec3(0.0);  // of the sides, as last seen
     // Along the crease: where it leaves the cell on either way, and where a third side ends it.
     vec3 ahead = vec3(0.0);
-    float back = 0.0, forth = 0.0, end = 0.0;
+    float back = 0.0, forth = 0.0, to_end = 0.0;
     bool may_end = false, ends = false;
     // First the crease, then its end; one loop within for both, so that the kernel holds the tape's code once.
     for (int stage = 0; stage < 2; ++stage) {
@@ -76,7 +76,7 @@ void main() {
         vec3 q = mix(x, at_side, is_first ? FIRST_PULL : PULL) +
                  (is_first ? first_beyond : BEYOND) * (outwards - dot(outwards, facing) * facing);
         // The last time from close by: a side may be curved.
-        float along = step == 0 ? back : step == 1 ? forth : mix(end, end > 0.0 ? forth : back, PULL);
+        float along = step == 0 ? back : step == 1 ? forth : mix(to_end, to_end > 0.0 ? forth : back, PULL);
         q = stage == 0 ? q : x + along * ahead;
         Field a = evaluate(low + q * size, at.tape_begin, at.tape_count);
         vec3 d = inward() * size * a.d;
@@ -97,12 +97,12 @@ void main() {
           bool stands_across = may_end && abs(across) > LEAST_ACROSS;
           float found = along + depth / (stands_across ? across : 1.0);
           bool is_end = stands_across && (step == 2 ? ends : abs(depth) > LEAST_CUT) && found > back && found < forth;
-          end = is_end && (step == 2 || !ends || abs(found) < abs(end)) ? found : end;
+          to_end = is_end && (step == 2 || !ends || abs(found) < abs(to_end)) ? found : to_end;
           ends = ends || is_end;
         }
       }
     }
-    x += end * ahead;
+    x += to_end * ahead;
     if (on_crease) {
       vec3 p = low + x * size;
       positions[3u * v] = p.x;
