@@ -66,6 +66,8 @@ Field result(uint row, uint slot) {
   if (may_follow_angle()) {
     float sine = arguments[at + operands + 1u];
     angle.cosine = vec4(by, 0.0, 0.0, -sine) * ((mode & 3u) == FORM_DIFFERENCE ? -1.0 : 1.0);
+    float cosine = value_of(angle.cosine);
+    angle.versine = chain(angle.cosine, cosine > 0.0 ? sine * sine / (1.0 + cosine) : 1.0 - cosine, -1.0);
     angle.ratio = dual(clamp(arguments[at + operands + 2u], 1.0 / MOST_RATIO, MOST_RATIO));
   }
   bool is_btk = is_operator(op, OPERATOR_BTK);

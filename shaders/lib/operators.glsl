@@ -157,9 +157,10 @@ Field in_frame(Field a, uint record) {
   return a;
 }
 
-// The cosine of the angle between two fields' directions, 0 where one vanishes, and |first| / |second|.
+// The angle between two fields' directions: its cosine, 0 where one vanishes, 1 less the cosine, which keeps its digits
+// where directions are almost the same, and |first| / |second|.
 struct Angle {
-  Dual cosine, ratio;
+  Dual cosine, versine, ratio;
 };
 Angle angle_between(Field a, Field b) {
   // Directions that are too long to be squared are taken shorter.
@@ -183,12 +184,14 @@ Angle angle_between(Field a, Field b) {
   Dual ratio = (scale2 / scale1) * square_root(over(d11, d22));
   // Rounding may pass 1, where the cosine has no gradient.
   cosine = select_dual(cosine, dual(value_of(cosine) > 0.0 ? 1.0 : -1.0), abs(value_of(cosine)) >= 1.0);
+  vec3 apart = a.d / sqrt(value_of(d11)) - b.d / sqrt(value_of(d22));
+  Dual versine = chain(cosine, 0.5 * dot(apart, apart), -1.0);
   bool is_extreme = value_of(ratio) < 1.0 / MOST_RATIO || value_of(ratio) > MOST_RATIO;
-  return Angle(select_dual(cosine, dual(0.0), is_null),
+  return Angle(select_dual(cosine, dual(0.0), is_null), select_dual(versine, dual(1.0), is_null),
                select_dual(ratio, dual(is_null ? 1.0 : clamp(value_of(ratio), 1.0 / MOST_RATIO, MOST_RATIO)), is_null || is_extreme));
 }
 
-Angle no_angle() { return Angle(dual(0.0), dual(1.0)); }
+Angle no_angle() { return Angle(dual(0.0), dual(1.0), dual(1.0)); }
 
 // `angle` counts where the operator follows it.
 Field blend_bt2(Field a, Field b, uint record, Angle angle) {
@@ -196,7 +199,7 @@ Field blend_bt2(Field a, Field b, uint record, Angle angle) {
   Reach2 reach = Reach2(dual(head.x), dual(head.y), dual(w1.z), dual(w2.z));
   vec2 inverse_weights = vec2(w1.x, w2.x);
   if (may_follow_angle() && head.w >= 0.0) {
-    eliminate_bulge(reach, angle.cosine, angle.ratio, head.w);
+    eliminate_bulge(reach, angle.cosine, angle.versine, angle.ratio, head.w);
     inverse_weights = vec2(0.0);
   }
   return join_signed(a, b, bt2(dual_of(a), dual_of(b), reach, head.z, inverse_weights));
@@ -251,7 +254,7 @@ Field blend_btk(Field x[MAX_OPERANDS], uint mask, uint record, Angle angle) {
   if (may_follow_angle() && head.y >= 0.0) {
     Reach2 reach = Reach2(terms[0].range, terms[1].range, reciprocal(terms[0].inverse_weight),
                           reciprocal(terms[1].inverse_weight));
-    eliminate_bulge(reach, angle.cosine, angle.ratio, head.y);
+    eliminate_bulge(reach, angle.cosine, angle.versine, angle.ratio, head.y);
     terms[0] = Term(terms[0].x, reciprocal(reach.m1), reach.r1, terms[0].power);
     terms[1] = Term(terms[1].x, reciprocal(reach.m2), reach.r2, terms[1].power);
   }
@@ -270,7 +273,7 @@ Field blend_superelliptic(Field x[MAX_OPERANDS], uint mask, uint record, Angle a
     bool is_there;
     float range = operation_at(take_operand(mask, record, is_there)).w;
     Dual r = dual(range);
-    if (by_angle) r = angular_range(range, angle.cosine, head.y);
+    if (by_angle) r = angular_range(range, angle.versine, head.y);
     Bracket b = superelliptic_bracket(dual_of(x[j]), r, head.x, head.zw);
     g = g - select_dual(dual(0.0), b.value, is_there);
     partials[j] = select_dual(dual(0.0), b.fall, is_there);

@@ -119,13 +119,14 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
   return select_dual(single, root, is_blend);
 }
 
-Dual angular_range(float range, Dual cosine, float omega) { return range * (dual(1.0 + omega) - cosine); }
+// `versine` is 1 less the cosine.
+Dual angular_range(float range, Dual versine, float omega) { return range * (dual(omega) + versine); }
 
 // [H] section 5. The ratio is kept within [1 / MOST_RATIO, MOST_RATIO].
 const float MOST_RATIO = 8.0;
-void eliminate_bulge(inout Reach2 reach, Dual cosine, Dual ratio, float omega) {
-  reach.r1 = angular_range(value_of(reach.r1), cosine, omega);
-  reach.r2 = angular_range(value_of(reach.r2), cosine, omega);
+void eliminate_bulge(inout Reach2 reach, Dual cosine, Dual versine, Dual ratio, float omega) {
+  reach.r1 = angular_range(value_of(reach.r1), versine, omega);
+  reach.r2 = angular_range(value_of(reach.r2), versine, omega);
   Dual m1 = reach.m1, m2 = reach.m2;
   bool is_aligned = value_of(cosine) > 0.0;
   bool first_leads = value_of(m1) > value_of(m2) * value_of(ratio);

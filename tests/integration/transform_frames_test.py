@@ -261,7 +261,7 @@ def parameters_of(random):
     r = random.uniform(0.3, 0.9, 2)
     return {"r": r.tolist(), "m": random.uniform(0.5, 2, 2).tolist(), "t": random.uniform(1.5, 4),
             "power": random.uniform(1.5, 4), "p": random.uniform(-1, 0.5) * r[0] * r[1],
-            "omega": random.uniform(0.1, 0.3)}
+            "omega": random.uniform(0.01, 0.1)}
 
 
 def scene(kind, condition, depth, random):
