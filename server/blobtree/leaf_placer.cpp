@@ -8,6 +8,9 @@
 namespace isofield::blobtree {
 namespace {
 
+// What stretches may differ from exact ones, as a part of them: those of a turn from 1, for example.
+constexpr double kStretchRounding = 1e-9;
+
 // Half the extents of the support of a shape centred in its own frame: of all but the segment.
 dvec3 local_half(Shape shape, const ShapeSize& s, double h) {
   switch (shape) {
@@ -89,7 +92,7 @@ absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
   leaf.range = node.range;
   leaf.law = node.law;
   const Affine::Stretch stretch = place.stretch();
-  const bool similar = stretch.most - stretch.least <= 1e-9 * stretch.most;
+  const bool similar = stretch.most - stretch.least <= kStretchRounding * stretch.most;
   if (similar) {
     // Distances scale with the map: scale the lengths instead and keep the placement rigid.
     const double factor = stretch.most;
@@ -106,7 +109,7 @@ absl::StatusOr<Leaf> place_leaf(const Node& node, const Affine& to_world) {
   const double least_length = is_signed ? 1 : node.range;
   // Maps that each are well conditioned may multiply to one that is not, and whose least stretch is lost in rounding.
   if (!inverse || !(stretch.least * (kMaxCondition * 1.001) >= stretch.most) ||
-      !(least_length * stretch.least >= kMinLength * (1 - 1e-9)) ||
+      !(least_length * stretch.least >= kMinLength * (1 - kStretchRounding)) ||
       !near_enough(largest * stretch.most) || !near_enough(place.offset.x) || !near_enough(place.offset.y) ||
       !near_enough(place.offset.z)) {
     std::string text =

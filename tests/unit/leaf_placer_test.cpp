@@ -22,6 +22,24 @@ double field_of(const Leaf& leaf, const dvec3& p) {
   return soften(leaf.distance(p), leaf.range);
 }
 
+// A turn stretches by 1 but for rounding, which must not make the least length too short.
+TEST(LeafPlacer, TheLeastLengthIsAcceptedWhateverWayItIsTurned) {
+  Random random(4);
+  for (int i = 0; i < 200; ++i) {
+    v1::Scene scene;
+    v1::Segment& segment = *scene.add_nodes()->mutable_segment();
+    for (const double x : {0.0, 0.0, 0.0}) segment.add_a(x);
+    const dvec3 b = random.point(-1, 1);
+    for (const double x : {b.x, b.y, b.z}) segment.add_b(x);
+    segment.set_radius_a(kMinLength);
+    segment.set_radius_b(kMinLength);
+    segment.set_range(kMinLength);
+    const auto read = read_scene(scene, SceneLimits());
+    ASSERT_TRUE(read.ok()) << read.status();
+    EXPECT_TRUE(compile(*read).ok()) << compile(*read).status();
+  }
+}
+
 TEST(LeafPlacer, NothingReachesBeyondTheSupport) {
   double fullest = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
