@@ -67,7 +67,9 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 22));
   app.add_option("--max-grid-points", c.limits.max_grid_points, "Points of a grid request")
       ->envname("ISOFIELD_MAX_GRID_POINTS");
-  app.add_option("--max-mesh-cells", c.limits.max_mesh_cells, "Cells that a mesh request may look at")
+  app.add_option("--max-mesh-cells", c.limits.max_mesh_cells,
+                 "Cells that a mesh request may look at, and as many as one without a cell size uses for thin parts; a "
+                 "million take about 0.5 s of one core and 20 MB")
       ->envname("ISOFIELD_MAX_MESH_CELLS")
       ->check(CLI::Range(std::uint64_t{64}, std::uint64_t{1} << 30));
   app.add_option("--max-queued-requests", c.limits.queue.max_requests, "Evaluate calls that wait or run")

@@ -153,17 +153,19 @@ absl::Status run(const Config& config, const std::string& version) {
   const gpu::DeviceDescription& d = engine->device().description();
   spdlog::info("isofieldd {} on {} ({}, Vulkan {})", version, d.name, d.driver, d.vulkan_version);
 
-  catalog::Catalog catalog(config.limits.max_scenes);
-  catalog::OperatorCatalog operators(config.limits.max_operators);
+  rpc::Limits limits = config.limits;
+  limits.max_mesh_cells = std::min(limits.max_mesh_cells, engine->mesher().max_cells());
+  catalog::Catalog catalog(limits.max_scenes);
+  catalog::OperatorCatalog operators(limits.max_operators);
   const rpc::SceneSource scenes(catalog, operators, *engine);
   rpc::SceneEditor editor(catalog, *engine);
   rpc::SceneService scene_service(catalog, operators, *engine, editor);
-  rpc::OperatorService operator_service(operators, scenes, *engine, config.limits);
-  rpc::SharedRegions shared_regions(config.limits.shared);
-  rpc::FieldService field_service(scenes, *engine, config.limits, config.shared_memory ? &shared_regions : nullptr);
-  rpc::MeshService mesh_service(scenes, editor, *engine, config.limits);
-  rpc::SurfaceService surface_service(scenes, *engine, config.limits);
-  rpc::InfoService info_service(operators, *engine, config.limits, version, region_socket_path(config));
+  rpc::OperatorService operator_service(operators, scenes, *engine, limits);
+  rpc::SharedRegions shared_regions(limits.shared);
+  rpc::FieldService field_service(scenes, *engine, limits, config.shared_memory ? &shared_regions : nullptr);
+  rpc::MeshService mesh_service(scenes, editor, *engine, limits);
+  rpc::SurfaceService surface_service(scenes, *engine, limits);
+  rpc::InfoService info_service(operators, *engine, limits, version, region_socket_path(config));
   ISOFIELD_ASSIGN_OR_RETURN(const Running running, start_server(config,
                                                                 {&scene_service, &operator_service, &field_service,
                                                                  &mesh_service, &surface_service, &info_service},

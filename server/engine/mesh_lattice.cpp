@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/cell_size.h"
 #include "engine/mesh_rounding.h"
 #include "engine/status_macros.h"
 
@@ -17,18 +18,48 @@ using blobtree::Box;
 using blobtree::Brick;
 using blobtree::BrickList;
 using blobtree::CullRequest;
-using blobtree::dvec3;
 using blobtree::Lattice;
 
-double longest_edge(const Box& box) {
-  return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+// Cells along an axis, when the bounds' corner, and room around derived bounds, are counted in.
+constexpr double kUsableCells = kMaxCellsPerAxis - 4 - kLatticeAlignment;
+
+absl::Status refusal(const blobtree::Tape& tape, const MeshRequest& request, bool is_part, std::uint64_t max_bricks,
+                     const std::function<bool()>& cancelled) {
+  const bool is_along_axis = request.cell_size < least_cell_size(tape, request);
+  const std::string what = request.resolution ? absl::StrCat("resolution = ", *request.resolution)
+                                              : absl::StrCat("cell_size = ", request.cell_size);
+  const std::string limit =
+      is_along_axis ? absl::StrCat("the ", kMaxCellsPerAxis, " cells that are admitted along an axis")
+                    : absl::StrCat("the ", max_bricks * blobtree::kCellsPerBrick, " cells that are admitted in all");
+  if (is_part && !is_along_axis) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat(what, ": the bricks of this part take more than ", limit, "; ask for fewer bricks at once"));
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(FittingCell fits, fitting_cell(tape, request, max_bricks, cancelled));
+  // An extrapolated size may be one that was refused before.
+  if (!fits.is_exact) fits.size = std::max(fits.size, 1.1 * request.cell_size);
+  const char* const about = fits.is_exact ? "" : "about ";
+  return absl::ResourceExhaustedError(
+      request.resolution
+          ? absl::StrCat(what, " takes more than ", limit, "; the largest resolution that fits is ", about,
+                         std::max(std::floor(*request.resolution * request.cell_size / fits.size), 1.0))
+          : absl::StrCat(what, " takes more than ", limit, "; the smallest cell size that fits is ", about, fits.size));
 }
 
-using Within = std::optional<blobtree::BrickSet>;
+}  // namespace
 
-absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshRequest& request, const Within& within,
-                                       const Lattice& lattice, std::uint64_t max_bricks,
-                                       const std::function<bool()>& cancelled, const blobtree::ForEach& for_each = {}) {
+double least_cell_size(const blobtree::Tape& tape, const MeshRequest& request) {
+  const Box b = request.bounds.value_or(tape.support);
+  const double edge = std::max({b.max.x - b.min.x, b.max.y - b.min.y, b.max.z - b.min.z});
+  // Far from the origin float32 tells points apart no better than at that distance: a cell is 4 such steps at least.
+  const double reach = std::max({std::abs(b.min.x), std::abs(b.min.y), std::abs(b.min.z), std::abs(b.max.x),
+                                 std::abs(b.max.y), std::abs(b.max.z)});
+  return std::max(edge, 2 * reach) / kUsableCells;
+}
+
+absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshRequest& request, const Lattice& lattice,
+                                       const std::optional<blobtree::BrickSet>& within, std::uint64_t max_bricks,
+                                       const std::function<bool()>& cancelled, const blobtree::ForEach& for_each) {
   return blobtree::cull(tape, CullRequest{.lattice = lattice,
                                           .within = within,
                                           .keep = blobtree::Keep::kSurface,
@@ -40,77 +71,10 @@ absl::StatusOr<BrickList> cull_surface(const blobtree::Tape& tape, const MeshReq
                                           .for_each = for_each});
 }
 
-// Bricks at this cell size, or max_bricks + 1 when there are more.
-absl::StatusOr<std::uint64_t> count_bricks(const blobtree::Tape& tape, MeshRequest request, const Within& within,
-                                           double cell_size, std::uint64_t max_bricks,
-                                           const std::function<bool()>& cancelled) {
-  request.cell_size = cell_size;
-  const auto lattice = mesh_lattice(tape, request);
-  if (!lattice.ok()) return max_bricks + 1;
-  const auto list = cull_surface(tape, request, within, *lattice, max_bricks, cancelled);
-  if (absl::IsResourceExhausted(list.status())) return max_bricks + 1;
-  if (!list.ok()) return list.status();
-  return list->bricks.size();
-}
-
-// The smallest cell size, to a few per cent, whose bricks are admitted.
-absl::StatusOr<double> smallest_fitting_cell(const blobtree::Tape& tape, const MeshRequest& request,
-                                             const Within& within, std::uint64_t max_bricks,
-                                             const std::function<bool()>& cancelled) {
-  double too_small = request.cell_size, fits = too_small;
-  for (;;) {
-    fits *= 2;
-    const auto bricks = count_bricks(tape, request, within, fits, max_bricks, cancelled);
-    if (!bricks.ok()) return bricks.status();
-    if (*bricks <= max_bricks) break;
-    too_small = fits;
-  }
-  while (fits / too_small > 1.04) {
-    const double middle = std::sqrt(fits * too_small);
-    const auto bricks = count_bricks(tape, request, within, middle, max_bricks, cancelled);
-    if (!bricks.ok()) return bricks.status();
-    (*bricks <= max_bricks ? fits : too_small) = middle;
-  }
-  // Two digits more than the search is worth, rounded up.
-  const double unit = std::pow(10, std::floor(std::log10(fits)) - 3);
-  return std::ceil(fits / unit) * unit;
-}
-
-// The least radius of a primitive, in world lengths.
-double thinness(const blobtree::Leaf& leaf) {
-  const blobtree::ShapeSize& s = leaf.size;
-  double least = s[0];
-  switch (leaf.shape) {
-    case blobtree::Shape::kSphere:
-      break;
-    case blobtree::Shape::kSegment:
-      least = std::min(s[1], s[2]);
-      break;
-    case blobtree::Shape::kCylinder:
-      least = std::min(s[0], s[1]);
-      break;
-    case blobtree::Shape::kTorus:
-      least = s[1];
-      break;
-    case blobtree::Shape::kBox:
-    case blobtree::Shape::kEllipsoid:
-      least = std::min({s[0], s[1], s[2]});
-      break;
-  }
-  return least / leaf.stretch;
-}
-
-}  // namespace
-
 absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request) {
   const double cell = request.cell_size;
   const Box bounds = request.bounds.value_or(tape.support);
-  // Far from the origin float32 tells points apart no better than at that distance: a cell is 4 such steps at least.
-  const double reach = std::max({std::abs(bounds.min.x), std::abs(bounds.min.y), std::abs(bounds.min.z),
-                                 std::abs(bounds.max.x), std::abs(bounds.max.y), std::abs(bounds.max.z)});
-  if (std::max(longest_edge(bounds), 2 * reach) / cell > kMaxCellsPerAxis - 4 - kLatticeAlignment) {
-    return absl::ResourceExhaustedError("too many cells along an axis");
-  }
+  if (cell < least_cell_size(tape, request)) return absl::ResourceExhaustedError("too many cells along an axis");
   constexpr double kAlignment = kLatticeAlignment;
   Lattice lattice;
   lattice.spacing = {cell, cell, cell};
@@ -129,37 +93,23 @@ absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshReque
   return lattice;
 }
 
-absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const MeshRequest& request) {
-  const std::uint64_t most = std::min(kAutomaticCells, request.max_cells) / blobtree::kCellsPerBrick;
-  if (tape.support.empty()) return 1.0;
-  double cell = longest_edge(request.bounds.value_or(tape.support)) / kAutomaticCellsAlong;
-  for (const blobtree::Leaf& leaf : tape.leaves) cell = std::min(cell, thinness(leaf));
-  for (;; cell *= 1.25) {
-    const auto bricks = count_bricks(tape, request, std::nullopt, cell, most, {});
-    if (!bricks.ok()) return bricks.status();
-    if (*bricks <= most) return cell;
-  }
-}
-
 absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
                                              const std::optional<blobtree::BrickSet>& within, std::uint64_t max_bricks,
                                              const std::function<bool()>& cancelled,
                                              const blobtree::ForEach& for_each) {
   const auto find = [&]() -> absl::StatusOr<SurfaceBricks> {
     ISOFIELD_ASSIGN_OR_RETURN(Lattice lattice, mesh_lattice(tape, request));
+    if (!within) {
+      ISOFIELD_ASSIGN_OR_RETURN(const bool is_refused, is_far_too_fine(tape, request, max_bricks, cancelled));
+      if (is_refused) return absl::ResourceExhaustedError("far too many bricks");
+    }
     ISOFIELD_ASSIGN_OR_RETURN(BrickList list,
-                              cull_surface(tape, request, within, lattice, max_bricks, cancelled, for_each));
+                              cull_surface(tape, request, lattice, within, max_bricks, cancelled, for_each));
     return SurfaceBricks{lattice, std::move(list)};
   };
   absl::StatusOr<SurfaceBricks> found = find();
   if (!absl::IsResourceExhausted(found.status())) return found;
-  ISOFIELD_ASSIGN_OR_RETURN(const double fits, smallest_fitting_cell(tape, request, within, max_bricks, cancelled));
-  return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", request.cell_size, " takes more cells than the ",
-                                                   max_bricks * blobtree::kCellsPerBrick, " in all, or the ",
-                                                   kMaxCellsPerAxis,
-                                                   " along an axis, that are admitted; the smallest cell size that "
-                                                   "fits is ",
-                                                   fits));
+  return refusal(tape, request, within.has_value(), max_bricks, cancelled);
 }
 
 std::vector<std::uint32_t> brick_neighbours(const std::vector<Brick>& bricks) {

@@ -19,14 +19,20 @@ inline constexpr std::uint32_t kMaxCellsPerAxis = 1u << 22;
 inline constexpr std::uint32_t kLatticeAlignment = 32;
 absl::StatusOr<blobtree::Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request);
 
-// A cell size for a request that states none: the thinnest primitive two cells across and the longest edge at least
-// kAutomaticCellsAlong, as far as kAutomaticCells cells go.
-inline constexpr double kAutomaticCellsAlong = 200;
-inline constexpr std::uint64_t kAutomaticCells = 1u << 22;
-absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const MeshRequest& request);
+// No cell that is smaller is admitted: kMaxCellsPerAxis, and coordinates that float32 tells apart.
+double least_cell_size(const blobtree::Tape& tape, const MeshRequest& request);
+
+// The bricks of a lattice that the surface may cross, all or `within` some.
+absl::StatusOr<blobtree::BrickList> cull_surface(const blobtree::Tape& tape, const MeshRequest& request,
+                                                 const blobtree::Lattice& lattice,
+                                                 const std::optional<blobtree::BrickSet>& within,
+                                                 std::uint64_t max_bricks, const std::function<bool()>& cancelled,
+                                                 const blobtree::ForEach& for_each = {});
 
 // The lattice with the bricks that the surface may cross, all or `within` some, found by `for_each`.
-// RESOURCE_EXHAUSTED beyond max_bricks, with the smallest cell size that fits.
+// RESOURCE_EXHAUSTED: more than max_bricks; the message speaks of cell_size, or of resolution where the request stated
+// that, and states the smallest cell size or the largest resolution that fits, or asks for fewer bricks where `within`
+// holds too many.
 struct SurfaceBricks {
   blobtree::Lattice lattice;
   blobtree::BrickList list;

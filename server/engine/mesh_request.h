@@ -11,6 +11,8 @@ namespace isofield::engine {
 
 struct MeshRequest {
   double cell_size = 0;  // > 0
+  // Cells along the longest edge, where the request states these and cell_size is derived: refusals speak of it.
+  std::optional<std::uint32_t> resolution;
   // Where the surface leaves these, the mesh is capped within a cell. Absent: nothing is cut.
   std::optional<blobtree::Box> bounds;
   double iso = 0.5;  // within ]0, 1[

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/cell_size.h"
 #include "engine/mesh_lattice.h"
 #include "engine/mesh_part.h"
 #include "engine/status_macros.h"
@@ -63,14 +64,24 @@ absl::Status Mesher::cells(const ResidentScene& scene, const MeshRequest& reques
   return absl::OkStatus();
 }
 
+std::uint64_t Mesher::max_cells() const {
+  constexpr std::uint64_t kMostBricks = 1u << 24;
+  return std::min(device_.description().max_buffer_bytes / 4, kMostBricks * blobtree::kCellsPerBrick);
+}
+
+absl::StatusOr<double> Mesher::automatic_cell_size(const ResidentScene& scene, const MeshRequest& request,
+                                                   const std::function<bool()>& cancelled) const {
+  MeshRequest admitted = request;
+  admitted.max_cells = std::min(request.max_cells, max_cells());
+  return engine::automatic_cell_size(scene.tape(), admitted, cancelled, workers_.for_each());
+}
+
 absl::StatusOr<SurfaceBricks> Mesher::find_bricks(const ResidentScene& scene, const MeshRequest& request,
                                                   const std::optional<blobtree::BrickSet>& within,
                                                   const MeshCallbacks& callbacks) const {
   if (scene.tape().support.empty()) return SurfaceBricks{};
   if (callbacks.cancelled && callbacks.cancelled()) return absl::CancelledError("the request was cancelled");
-  // One binding holds a word for every cell.
-  const std::uint64_t bound = device_.description().max_buffer_bytes / (4 * blobtree::kCellsPerBrick);
-  const std::uint64_t most = std::min<std::uint64_t>({request.max_cells / blobtree::kCellsPerBrick, bound, 1u << 24});
+  const std::uint64_t most = std::min(request.max_cells, max_cells()) / blobtree::kCellsPerBrick;
   ISOFIELD_ASSIGN_OR_RETURN(
       SurfaceBricks all, surface_bricks(scene.tape(), request, within, most, callbacks.cancelled, workers_.for_each()));
   std::stable_sort(all.list.bricks.begin(), all.list.bricks.end(),

@@ -28,7 +28,7 @@ class Mesher {
   Mesher(gpu::Device& device, KernelCache& kernels, Workers& workers)
       : device_(device), kernels_(kernels), workers_(workers) {}
 
-  // Deterministic. RESOURCE_EXHAUSTED: more cells than admitted; the message states the smallest cell size that fits.
+  // Deterministic. RESOURCE_EXHAUSTED: as surface_bricks().
   absl::StatusOr<Mesh> mesh(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks);
 
   // The same by bricks, handed over in order of place as they are made; a failure of `deliver` ends the work. A brick
@@ -36,6 +36,12 @@ class Mesher {
   using Deliver = std::function<absl::Status(const MeshCells&)>;
   absl::Status cells(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
                      const Deliver& deliver);
+
+  // automatic_cell_size(), on all threads.
+  absl::StatusOr<double> automatic_cell_size(const ResidentScene& scene, const MeshRequest& request,
+                                             const std::function<bool()>& cancelled) const;
+  // Beyond so many cells a request is refused whatever it admits: one binding holds a word for each.
+  std::uint64_t max_cells() const;
 
   // The bricks that `sets` states, whatever request.part says.
   absl::StatusOr<PartMesh> part(const ResidentScene& scene, const MeshRequest& request, const PartSets& sets,

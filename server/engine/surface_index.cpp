@@ -1,5 +1,6 @@
 #include "engine/surface_index.h"
 
+#include "engine/cell_size.h"
 #include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
 
@@ -18,7 +19,7 @@ absl::StatusOr<std::shared_ptr<const SurfaceIndex>> make_index(const blobtree::T
   if (request.cell_size) {
     lattice_request.cell_size = *request.cell_size;
   } else {
-    ISOFIELD_ASSIGN_OR_RETURN(lattice_request.cell_size, automatic_cell_size(tape, lattice_request));
+    ISOFIELD_ASSIGN_OR_RETURN(lattice_request.cell_size, automatic_cell_size(tape, lattice_request, cancelled));
   }
   index->cell_size = lattice_request.cell_size;
   if (tape.support.empty()) return index;

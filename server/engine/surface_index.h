@@ -34,7 +34,7 @@ struct SurfaceIndex {
 // Keeps the indices that were used last. Thread-safe; two threads that want the same new one may both make it.
 class SurfaceIndexCache {
  public:
-  // RESOURCE_EXHAUSTED: more cells than admitted; the message states the smallest cell size that fits.
+  // RESOURCE_EXHAUSTED: as surface_bricks().
   absl::StatusOr<std::shared_ptr<const SurfaceIndex>> get(const SceneLease& scene, const SurfaceRequest& request,
                                                           const std::function<bool()>& cancelled);
 

@@ -19,22 +19,30 @@ constexpr std::uint32_t kMaxResolution = 1u << 20;
 // Cells. Nearer, float32 leaves nothing to gain.
 constexpr double kLeastTolerance = 1e-5, kMostTolerance = 0.1;
 
-absl::StatusOr<double> read_cell_size(const v1::MeshRequest& request, const engine::MeshRequest& so_far,
-                                      const blobtree::Tape& tape) {
+// Fills in the cell size of `r`, whose other fields are read.
+absl::Status read_cell_size(const v1::MeshRequest& request, const engine::ResidentScene& scene,
+                            const engine::Mesher& mesher, const std::function<bool()>& cancelled,
+                            engine::MeshRequest& r) {
   switch (request.cells_case()) {
-    case v1::MeshRequest::kCellSize:
-      return read_length("cell_size", request.cell_size());
+    case v1::MeshRequest::kCellSize: {
+      ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_length("cell_size", request.cell_size()));
+      return absl::OkStatus();
+    }
     case v1::MeshRequest::kResolution: {
       if (request.resolution() < 1 || request.resolution() > kMaxResolution) {
         return absl::InvalidArgumentError(
             absl::StrCat("resolution = ", request.resolution(), ": expected a count within [1, ", kMaxResolution, "]"));
       }
-      const blobtree::Box box = so_far.bounds.value_or(tape.support);
-      if (box.empty()) return 1.0;
-      return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}) / request.resolution();
+      r.resolution = request.resolution();
+      const blobtree::Box box = r.bounds.value_or(scene.tape().support);
+      const blobtree::dvec3 edges = box.max - box.min;
+      r.cell_size = box.empty() ? 1.0 : std::max({edges.x, edges.y, edges.z}) / request.resolution();
+      return absl::OkStatus();
     }
-    default:
-      return engine::automatic_cell_size(tape, so_far);
+    default: {
+      ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, mesher.automatic_cell_size(scene, r, cancelled));
+      return absl::OkStatus();
+    }
   }
 }
 
@@ -50,8 +58,10 @@ absl::StatusOr<double> read_tolerance(const v1::MeshRequest& request, double oth
 
 }  // namespace
 
-absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
-                                                      const Limits& limits) {
+absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request,
+                                                      const engine::ResidentScene& scene, const engine::Mesher& mesher,
+                                                      const Limits& limits, const std::function<bool()>& cancelled) {
+  const blobtree::Tape& tape = scene.tape();
   engine::MeshRequest r;
   ISOFIELD_ASSIGN_OR_RETURN(r.bounds, read_bounds(request.bounds_min(), request.bounds_max()));
   ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
@@ -59,7 +69,7 @@ absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& req
   ISOFIELD_ASSIGN_OR_RETURN(r.tolerance, read_tolerance(request, r.tolerance));
   r.with_normals = !request.omit_normals();
   r.max_cells = limits.max_mesh_cells;
-  ISOFIELD_ASSIGN_OR_RETURN(r.cell_size, read_cell_size(request, r, tape));
+  ISOFIELD_RETURN_IF_ERROR(read_cell_size(request, scene, mesher, cancelled, r));
   return r;
 }
 

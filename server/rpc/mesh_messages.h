@@ -5,18 +5,21 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "engine/mesh_cells.h"
 #include "engine/mesh_request.h"
-#include "engine/resident_scene.h"
+#include "engine/mesher.h"
 #include "isofield/v1/mesh_service.pb.h"
 #include "rpc/limits.h"
 
 namespace isofield::rpc {
 
-absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request, const blobtree::Tape& tape,
-                                                      const Limits& limits);
+// Chooses the cell size where none is stated.
+absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request,
+                                                      const engine::ResidentScene& scene, const engine::Mesher& mesher,
+                                                      const Limits& limits, const std::function<bool()>& cancelled);
 
 // Model units; nothing: none is asked for.
 absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRequest& request);

@@ -100,11 +100,12 @@ grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshReque
   MeshTotals totals;
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
-  const absl::StatusOr<engine::MeshRequest> r = read_mesh_request(*request, leased->scene->tape(), limits_);
-  if (!r.ok()) return to_grpc(r.status());
   const auto simplification_error = read_simplification_error(*request);
   if (!simplification_error.ok()) return to_grpc(simplification_error.status());
   const engine::MeshCallbacks callbacks = callbacks_of(*context, *writer);
+  const absl::StatusOr<engine::MeshRequest> r =
+      read_mesh_request(*request, *leased->scene, engine_.mesher(), limits_, callbacks.cancelled);
+  if (!r.ok()) return to_grpc(r.status());
   const auto write = [&](const auto& part, const std::vector<std::uint32_t>& triangles) {
     const bool written = write_rows(*writer, part.positions, &v1::MeshPart::mutable_positions) &&
                          write_rows(*writer, part.normals, &v1::MeshPart::mutable_normals) &&
@@ -138,13 +139,15 @@ grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->mesh().scene());
   if (!leased.ok()) return to_grpc(leased.status());
   if (const absl::Status status = check_not_simplified(request->mesh()); !status.ok()) return to_grpc(status);
-  absl::StatusOr<engine::MeshRequest> r = read_mesh_request(request->mesh(), leased->scene->tape(), limits_);
+  const engine::MeshCallbacks callbacks = callbacks_of(*context, *writer);
+  absl::StatusOr<engine::MeshRequest> r =
+      read_mesh_request(request->mesh(), *leased->scene, engine_.mesher(), limits_, callbacks.cancelled);
   if (!r.ok()) return to_grpc(r.status());
   auto part = read_part(*request);
   if (!part.ok()) return to_grpc(part.status());
   r->part = *part;
   const absl::Status status =
-      engine_.mesher().cells(*leased->scene, *r, callbacks_of(*context, *writer), [&](const engine::MeshCells& cells) {
+      engine_.mesher().cells(*leased->scene, *r, callbacks, [&](const engine::MeshCells& cells) {
         totals.add(cells);
         const bool written = write_bricks(cells, [&](v1::MeshBricks bricks) {
           v1::MeshBricksResponse response;
@@ -174,12 +177,13 @@ grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRe
   MeshTotals totals;
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
-  absl::StatusOr<engine::MeshRequest> r = read_mesh_request(*request, leased->scene->tape(), limits_);
-  if (!r.ok()) return to_grpc(r.status());
   const auto simplification_error = read_simplification_error(*request);
   if (!simplification_error.ok()) return to_grpc(simplification_error.status());
-  r->with_normals = false;
   const engine::MeshCallbacks callbacks{.cancelled = [&] { return context->IsCancelled(); }};
+  absl::StatusOr<engine::MeshRequest> r =
+      read_mesh_request(*request, *leased->scene, engine_.mesher(), limits_, callbacks.cancelled);
+  if (!r.ok()) return to_grpc(r.status());
+  r->with_normals = false;
   const absl::StatusOr<engine::Mesh> mesh =
       make_mesh(engine_.mesher(), *leased->scene, *r, *simplification_error, callbacks);
   if (!mesh.ok()) return to_grpc(mesh.status());

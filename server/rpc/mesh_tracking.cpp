@@ -28,7 +28,8 @@ absl::Status MeshTracking::begin(const v1::MeshRequest& request) {
   ISOFIELD_RETURN_IF_ERROR(check_not_simplified(request));
   scene_ = request.scene();
   ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(scene_));
-  ISOFIELD_ASSIGN_OR_RETURN(request_, read_mesh_request(request, leased.scene->tape(), limits_));
+  ISOFIELD_ASSIGN_OR_RETURN(request_, read_mesh_request(request, *leased.scene, engine_.mesher(), limits_,
+                                                        [&] { return context_.IsCancelled(); }));
   tracker_.emplace(engine_.mesher(), request_);
   return answer(leased.scene, leased.version);
 }

@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "engine/cell_size.h"
 #include "engine/engine.h"
-#include "engine/mesh_lattice.h"
 #include "isofield/import.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
@@ -87,10 +88,11 @@ Rays scattered(const blobtree::Box& box, int count) {
 }
 
 template <class Make>
-void cast(benchmark::State& state, const v1::Scene& scene, const Make& make) {
+void cast(benchmark::State& state, const v1::Scene& scene, std::optional<double> cell, const Make& make) {
   const engine::SceneLease lease = the_engine().make_resident(scene).value();
   const Rays rays = make(lease->tape().support);
-  const engine::RayRequest request{rays.origins, rays.directions};
+  const engine::RayRequest request{
+      .origins = rays.origins, .directions = rays.directions, .surface = {.cell_size = cell}};
   std::size_t hit = 0;
   for (auto _ : state) {
     const auto hits = the_engine().rays().cast(lease, request);
@@ -105,21 +107,21 @@ void cast(benchmark::State& state, const v1::Scene& scene, const Make& make) {
 }
 
 // Where the surface lies, which the first rays of a scene wait for.
-void find_surface(benchmark::State& state, const v1::Scene& scene) {
+void find_surface(benchmark::State& state, const v1::Scene& scene, std::optional<double> cell_size) {
   const engine::SceneLease lease = the_engine().make_resident(scene).value();
   std::size_t bricks = 0;
   for (auto _ : state) {
     engine::SurfaceIndexCache cache;
-    const auto index = cache.get(lease, {}, {}).value();
+    const auto index = cache.get(lease, {.cell_size = cell_size}, {}).value();
     bricks = index->tree.brick_count();
   }
   state.counters["bricks"] = static_cast<double>(bricks);
 }
 
 // Vertices of a mesh, moved by up to two cells.
-void project(benchmark::State& state, const v1::Scene& scene) {
+void project(benchmark::State& state, const v1::Scene& scene, std::optional<double> cell_size) {
   const engine::SceneLease lease = the_engine().make_resident(scene).value();
-  const double cell = engine::automatic_cell_size(lease->tape(), {}).value();
+  const double cell = cell_size ? *cell_size : engine::automatic_cell_size(lease->tape(), {}).value();
   std::vector<float> points = the_engine().mesher().mesh(*lease, {.cell_size = cell}, {}).value().positions;
   points.resize(std::min<std::size_t>(points.size(), 3 * 100'000));
   test_support::Random random(7);
@@ -143,22 +145,24 @@ void add(const std::string& name, Function f) {
   benchmark::RegisterBenchmark(name.c_str(), f)->Unit(benchmark::kMillisecond)->UseRealTime()->MinWarmUpTime(0.01);
 }
 
+// `cell`: of the scenes whose automatic cell is as small as the server admits, so that a row does not depend on that.
 template <class Scene>
-void add_scene(const std::string& name, const Scene& scene) {
-  add("rays/" + name + "/picture of 256 x 256",
-      [scene](benchmark::State& s) { cast(s, scene(), [](const blobtree::Box& box) { return picture(box, 256); }); });
-  add("rays/" + name + "/65,536 scattered", [scene](benchmark::State& s) {
-    cast(s, scene(), [](const blobtree::Box& box) { return scattered(box, 1 << 16); });
+void add_scene(const std::string& name, const Scene& scene, std::optional<double> cell = std::nullopt) {
+  add("rays/" + name + "/picture of 256 x 256", [scene, cell](benchmark::State& s) {
+    cast(s, scene(), cell, [](const blobtree::Box& box) { return picture(box, 256); });
   });
-  add("rays/" + name + "/finding the surface", [scene](benchmark::State& s) { find_surface(s, scene()); });
-  add("projections/" + name, [scene](benchmark::State& s) { project(s, scene()); });
+  add("rays/" + name + "/65,536 scattered", [scene, cell](benchmark::State& s) {
+    cast(s, scene(), cell, [](const blobtree::Box& box) { return scattered(box, 1 << 16); });
+  });
+  add("rays/" + name + "/finding the surface", [scene, cell](benchmark::State& s) { find_surface(s, scene(), cell); });
+  add("projections/" + name, [scene, cell](benchmark::State& s) { project(s, scene(), cell); });
 }
 
 [[maybe_unused]] const bool is_registered = [] {
   for (const int count : {64, 1000}) {
     add_scene(std::to_string(count) + " soft spheres sum", [count] { return soft_spheres(count); });
   }
-  if (test_support::has_shared_file("data/hemibrain_1734350788.swc")) add_scene("neuron camel", neuron);
+  if (test_support::has_shared_file("data/hemibrain_1734350788.swc")) add_scene("neuron camel", neuron, 12.5);
   return true;
 }();
 

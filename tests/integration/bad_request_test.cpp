@@ -267,8 +267,13 @@ TEST(BadRequestOfCells, TheSmallestCellThatFitsIsStatedAndFits) {
   v1::MeshRequest request = mesh_request(inlined(ball.scene()), 1);
   request.set_resolution(1048576);
   ReceivedMesh mesh;
-  EXPECT_GT(smallest_cell_of(peer.mesh(request, &mesh)), 0);
+  const grpc::Status refused = peer.mesh(request, &mesh);
+  expect_refused(refused, StatusCode::RESOURCE_EXHAUSTED, {"resolution = 1048576", "largest resolution that fits is "});
+  const std::string& text = refused.error_message();
+  request.set_resolution(static_cast<std::uint32_t>(std::stoul(text.substr(text.rfind(' ')))));
+  EXPECT_TRUE(ok(peer.mesh(request, &mesh))) << text;
   request.clear_cells();
+  mesh = ReceivedMesh();
   EXPECT_TRUE(ok(peer.mesh(request, &mesh))) << "a cell size that the server chooses must fit what it admits";
   expect_serving(daemon.address());
 }
