@@ -20,6 +20,7 @@ class DisjointSets {
     return i;
   }
   void join(std::uint32_t a, std::uint32_t b) {
+    if (parents_[a] == parents_[b]) return;
     a = root(a), b = root(b);
     parents_[std::max(a, b)] = std::min(a, b);
   }

@@ -13,17 +13,17 @@ std::uint64_t bytes_of(const MeshCache::Parts& parts) {
 
 }  // namespace
 
-std::shared_ptr<const MeshCache::Parts> MeshCache::find(const ResidentScene& scene, const MeshRequest& request) {
+std::shared_ptr<const MeshCache::Kept> MeshCache::find(const ResidentScene& scene, const MeshRequest& request) {
   const std::lock_guard lock(mutex_);
   const Entry* const found = entries_.find(scene, [&](const Entry& e) { return e.request == request; });
-  return found ? found->parts : nullptr;
+  return found ? found->mesh : nullptr;
 }
 
-void MeshCache::keep(const ResidentScene& scene, const MeshRequest& request, Parts parts) {
-  const std::uint64_t bytes = bytes_of(parts);
+void MeshCache::keep(const ResidentScene& scene, const MeshRequest& request, Kept mesh) {
+  const std::uint64_t bytes = bytes_of(mesh.parts);
   if (bytes > max_bytes_ / 2) return;
   const std::lock_guard lock(mutex_);
-  entries_.add({scene.weak_from_this(), request, std::make_shared<const Parts>(std::move(parts)), bytes});
+  entries_.add({scene.weak_from_this(), request, std::make_shared<const Kept>(std::move(mesh)), bytes});
   std::uint64_t sum = 0;
   entries_.trim([&](const Entry& e) { return (sum += e.bytes) <= max_bytes_; });
 }

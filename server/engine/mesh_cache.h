@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "engine/mesh_cells.h"
 #include "engine/mesh_request.h"
+#include "engine/mesh_shells.h"
 #include "engine/scene_entries.h"
 
 namespace isofield::engine {
@@ -17,18 +19,22 @@ namespace isofield::engine {
 class MeshCache {
  public:
   using Parts = std::vector<std::shared_ptr<const MeshCells>>;
+  struct Kept {
+    Parts parts;
+    std::optional<ShellCounts> shells;  // where they were counted
+  };
 
   explicit MeshCache(std::uint64_t max_bytes = std::uint64_t{256} << 20) : max_bytes_(max_bytes) {}
 
   // Null: not kept.
-  std::shared_ptr<const Parts> find(const ResidentScene& scene, const MeshRequest& request);
-  void keep(const ResidentScene& scene, const MeshRequest& request, Parts parts);
+  std::shared_ptr<const Kept> find(const ResidentScene& scene, const MeshRequest& request);
+  void keep(const ResidentScene& scene, const MeshRequest& request, Kept mesh);
 
  private:
   struct Entry {
     std::weak_ptr<const ResidentScene> scene;
     MeshRequest request;
-    std::shared_ptr<const Parts> parts;
+    std::shared_ptr<const Kept> mesh;
     std::uint64_t bytes;
   };
   const std::uint64_t max_bytes_;

@@ -3,6 +3,7 @@
 
 #include <absl/container/flat_hash_map.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -51,14 +52,41 @@ class MeshJoiner {
  public:
   // The triangles of `part` by numbers of vertices in the whole mesh.
   std::vector<std::uint32_t> number(const MeshCells& part);
+  // Calls visit(corner, vertex) for each corner of them.
+  template <class Visit>
+  void for_each_corner(const MeshCells& part, Visit&& visit);
   // Appends the part to `mesh`.
   void append(const MeshCells& part, Mesh& mesh);
 
   std::uint32_t vertices() const { return vertices_; }
 
  private:
+  static std::uint64_t key(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return x | std::uint64_t{y} << 21 | std::uint64_t{z} << 42;
+  }
+
   absl::flat_hash_map<std::uint64_t, std::uint32_t> first_vertices_;  // by brick
   std::uint32_t vertices_ = 0;
 };
+
+template <class Visit>
+void MeshJoiner::for_each_corner(const MeshCells& part, Visit&& visit) {
+  std::size_t corner = 0;
+  for (const MeshBrick& b : part.bricks) {
+    constexpr std::uint32_t kUnknown = ~0u;
+    std::array<std::uint32_t, 8> first;
+    first.fill(kUnknown);
+    first[0] = vertices_;
+    first_vertices_[key(b.x, b.y, b.z)] = vertices_;
+    vertices_ += b.vertices;
+    for (const std::size_t end = corner + 3 * std::size_t{b.triangles}; corner < end; ++corner) {
+      const std::uint32_t c = part.corners[corner], below = c >> 24 & 7;
+      if (first[below] == kUnknown) {
+        first[below] = first_vertices_[key(b.x - (below & 1), b.y - (below >> 1 & 1), b.z - (below >> 2))];
+      }
+      visit(corner, first[below] + (c & 0xffffff));
+    }
+  }
+}
 
 }  // namespace isofield::engine

@@ -7,6 +7,7 @@
 #include "engine/cell_size.h"
 #include "engine/mesh_lattice.h"
 #include "engine/mesh_part.h"
+#include "engine/mesh_shells.h"
 #include "engine/status_macros.h"
 
 namespace isofield::engine {
@@ -39,27 +40,32 @@ PartBricks whole_of(SurfaceBricks all) {
 }  // namespace
 
 absl::StatusOr<Mesh> Mesher::mesh(const ResidentScene& scene, const MeshRequest& request,
-                                  const MeshCallbacks& callbacks) {
+                                  const MeshCallbacks& callbacks, std::optional<ShellCounts>* shells) {
   Mesh mesh;
   MeshJoiner joiner;
-  ISOFIELD_RETURN_IF_ERROR(cells(scene, request, callbacks, [&](const MeshCells& part) {
+  const auto append = [&](const MeshCells& part) {
     joiner.append(part, mesh);
     return absl::OkStatus();
-  }));
+  };
+  ISOFIELD_RETURN_IF_ERROR(cells(scene, request, callbacks, append, shells));
   return mesh;
 }
 
 absl::Status Mesher::cells(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
-                           const Deliver& deliver) {
+                           const Deliver& deliver, std::optional<ShellCounts>* shells) {
+  if (shells != nullptr) shells->reset();
   if (request.part) {
     ISOFIELD_ASSIGN_OR_RETURN(const PartMesh mesh, part(scene, request, PartSets(*request.part), callbacks));
     return mesh.cells.cells == 0 ? absl::OkStatus() : deliver(mesh.cells);
   }
   if (const auto kept = cache_.find(scene, request)) {
-    for (const auto& part : *kept) ISOFIELD_RETURN_IF_ERROR(deliver(*part));
+    for (const auto& part : kept->parts) ISOFIELD_RETURN_IF_ERROR(deliver(*part));
+    if (shells != nullptr) *shells = kept->shells ? *kept->shells : count_shells(kept->parts, request.cell_size);
     return absl::OkStatus();
   }
-  ISOFIELD_ASSIGN_OR_RETURN(MeshCache::Parts made, make(scene, request, callbacks, deliver));
+  MeshCache::Kept made;
+  ISOFIELD_ASSIGN_OR_RETURN(made.parts, make(scene, request, callbacks, deliver));
+  if (shells != nullptr) *shells = made.shells = count_shells(made.parts, request.cell_size);
   cache_.keep(scene, request, std::move(made));
   return absl::OkStatus();
 }

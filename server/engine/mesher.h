@@ -29,13 +29,15 @@ class Mesher {
       : device_(device), kernels_(kernels), workers_(workers) {}
 
   // Deterministic. RESOURCE_EXHAUSTED: as surface_bricks().
-  absl::StatusOr<Mesh> mesh(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks);
+  // `shells`: where it is not null, is given those of the whole mesh; nothing where request.part asks for a part.
+  absl::StatusOr<Mesh> mesh(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
+                            std::optional<ShellCounts>* shells = nullptr);
 
   // The same by bricks, handed over in order of place as they are made; a failure of `deliver` ends the work. A brick
   // holds the same bytes whatever part it is asked with.
   using Deliver = std::function<absl::Status(const MeshCells&)>;
   absl::Status cells(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
-                     const Deliver& deliver);
+                     const Deliver& deliver, std::optional<ShellCounts>* shells = nullptr);
 
   // automatic_cell_size(), on all threads.
   absl::StatusOr<double> automatic_cell_size(const ResidentScene& scene, const MeshRequest& request,

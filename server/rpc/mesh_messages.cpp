@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "blobtree/nearest_leaf.h"
+#include "engine/cell_size.h"
 #include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
 #include "rpc/geometry_arguments.h"
@@ -56,6 +58,17 @@ absl::StatusOr<double> read_tolerance(const v1::MeshRequest& request, double oth
   return request.tolerance();
 }
 
+void fill_slivers(const engine::ShellCounts& shells, const LeasedScene& leased, v1::MeshSummary& summary) {
+  if (shells.sliver_bodies + shells.sliver_voids == 0) return;
+  v1::Slivers& slivers = *summary.mutable_slivers();
+  slivers.set_bodies(shells.sliver_bodies);
+  slivers.set_voids(shells.sliver_voids);
+  set_vector({shells.sliver[0], shells.sliver[1], shells.sliver[2]}, *slivers.mutable_position());
+  const blobtree::Tape& tape = leased.scene->tape();
+  const std::uint32_t leaf = blobtree::nearest_leaves(tape, shells.sliver).front();
+  if (leaf != blobtree::kNoLeaf) slivers.set_node(node_name(*leased.message, tape.leaves[leaf].node));
+}
+
 }  // namespace
 
 absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& request,
@@ -78,11 +91,21 @@ absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRe
   return read_length("simplification_error", request.simplification_error());
 }
 
-absl::Status check_not_simplified(const v1::MeshRequest& request) {
-  if (!request.has_simplification_error()) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(
-      "simplification_error = ", request.simplification_error(),
-      ": expected none, since bricks are the same whatever part they come with; Mesh and Measure simplify"));
+engine::ShellFilter read_shell_filter(const v1::MeshRequest& request) {
+  return {.largest_body = request.largest_body(), .fill_voids = request.fill_voids()};
+}
+
+absl::Status check_as_made(const v1::MeshRequest& request) {
+  const auto refuse = [](const std::string& field, const char* who) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        field, ": expected none, since bricks are the same whatever part they come with; Mesh and Measure ", who));
+  };
+  if (request.has_simplification_error()) {
+    return refuse(absl::StrCat("simplification_error = ", request.simplification_error()), "simplify");
+  }
+  if (request.largest_body()) return refuse("largest_body = true", "leave bodies out");
+  if (request.fill_voids()) return refuse("fill_voids = true", "leave voids out");
+  return absl::OkStatus();
 }
 
 std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,
@@ -119,21 +142,35 @@ void MeshTotals::add(const engine::Mesh& whole) {
   cells += whole.cells;
 }
 
-void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const engine::ResidentScene& scene,
-                  std::uint64_t scene_version, v1::MeshSummary& summary) {
+void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const LeasedScene& leased,
+                  v1::MeshSummary& summary) {
+  const blobtree::Tape& tape = leased.scene->tape();
   summary.set_vertices(totals.vertices);
   summary.set_triangles(totals.triangles);
   summary.set_cell_size(request.cell_size);
   summary.set_cells(totals.cells);
-  summary.set_seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - totals.start).count());
-  summary.set_scene_version(scene_version);
-  if (scene.tape().support.empty()) return;
-  const auto lattice = engine::mesh_lattice(scene.tape(), request);
-  if (!lattice.ok()) return;
-  set_vector(lattice->origin, *summary.mutable_lattice_origin());
-  for (const std::uint32_t cells : lattice->cells) {
-    summary.add_lattice_bricks((cells + blobtree::kBrickCells - 1) / blobtree::kBrickCells);
+  summary.set_scene_version(leased.version);
+  summary.set_unit(leased.message->unit());
+  if (totals.shells) {
+    summary.set_bodies(totals.shells->bodies);
+    summary.set_voids(totals.shells->voids);
+    fill_slivers(*totals.shells, leased, summary);
   }
+  summary.set_dropped_bodies(totals.dropped.bodies);
+  summary.set_dropped_voids(totals.dropped.voids);
+  if (const auto thin = engine::too_thin(tape, request)) {
+    summary.mutable_too_thin()->set_node(node_name(*leased.message, thin->node));
+    summary.mutable_too_thin()->set_thickness(thin->thickness);
+    summary.mutable_too_thin()->set_cell_size(thin->cell_size);
+    summary.mutable_too_thin()->set_primitives(thin->primitives);
+  }
+  if (const auto lattice = engine::mesh_lattice(tape, request); lattice.ok() && !tape.support.empty()) {
+    set_vector(lattice->origin, *summary.mutable_lattice_origin());
+    for (const std::uint32_t cells : lattice->cells) {
+      summary.add_lattice_bricks((cells + blobtree::kBrickCells - 1) / blobtree::kBrickCells);
+    }
+  }
+  summary.set_seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - totals.start).count());
 }
 
 }  // namespace isofield::rpc

@@ -5,14 +5,15 @@
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <optional>
 
 #include "engine/mesh_cells.h"
 #include "engine/mesh_request.h"
+#include "engine/mesh_shells.h"
 #include "engine/mesher.h"
 #include "isofield/v1/mesh_service.pb.h"
 #include "rpc/limits.h"
+#include "rpc/scene_source.h"
 
 namespace isofield::rpc {
 
@@ -23,9 +24,10 @@ absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& req
 
 // Model units; nothing: none is asked for.
 absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRequest& request);
-// Bricks are the same whatever part they come with, and so as they are made: INVALID_ARGUMENT where others are asked
-// for.
-absl::Status check_not_simplified(const v1::MeshRequest& request);
+engine::ShellFilter read_shell_filter(const v1::MeshRequest& request);
+// Bricks are the same whatever part they come with, and so as they are made: INVALID_ARGUMENT where a mesh that is
+// simplified, or lacks some of its bodies or voids, is asked for.
+absl::Status check_as_made(const v1::MeshRequest& request);
 
 // Bricks `first` and on: as many as a message holds. `vertex` and `triangle` are those before them, and move on.
 std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,
@@ -48,11 +50,13 @@ bool write_bricks(const engine::MeshCells& cells, const Write& write) {
 struct MeshTotals {
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   std::uint64_t vertices = 0, triangles = 0, cells = 0;
+  std::optional<engine::ShellCounts> shells;  // of what is sent, where that is known
+  engine::ShellCounts dropped;
 
   void add(const engine::MeshCells& part);
   void add(const engine::Mesh& whole);
 };
-void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const engine::ResidentScene& scene,
-                  std::uint64_t scene_version, v1::MeshSummary& summary);
+void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const LeasedScene& leased,
+                  v1::MeshSummary& summary);
 
 }  // namespace isofield::rpc

@@ -60,18 +60,41 @@ engine::MeshCallbacks callbacks_of(grpc::ServerContext& context, grpc::ServerWri
 // The part of the progress that meshing makes, where the mesh is simplified after that.
 constexpr double kMeshingPart = 0.4;
 
-// The whole mesh, simplified where that is asked for.
+// What is asked of a mesh once it is whole.
+struct Refinement {
+  engine::ShellFilter shells;
+  std::optional<double> simplification_error;
+
+  static absl::StatusOr<Refinement> read(const v1::MeshRequest& request) {
+    ISOFIELD_ASSIGN_OR_RETURN(const std::optional<double> error, read_simplification_error(request));
+    return Refinement{read_shell_filter(request), error};
+  }
+  bool is_none() const { return shells.keeps_all() && !simplification_error; }
+};
+
+// The whole mesh, refined. Notes in `totals` what was dropped.
 absl::StatusOr<engine::Mesh> make_mesh(engine::Mesher& mesher, const engine::ResidentScene& scene,
-                                       const engine::MeshRequest& request, std::optional<double> simplification_error,
-                                       const engine::MeshCallbacks& callbacks) {
-  if (!simplification_error) return mesher.mesh(scene, request, callbacks);
+                                       const engine::MeshRequest& request, const Refinement& refinement,
+                                       const engine::MeshCallbacks& callbacks, MeshTotals& totals) {
   engine::MeshCallbacks meshing = callbacks, simplifying = callbacks;
-  if (callbacks.progress) {
+  if (callbacks.progress && refinement.simplification_error) {
     meshing.progress = [&](double f) { callbacks.progress(kMeshingPart * f); };
     simplifying.progress = [&](double f) { callbacks.progress(kMeshingPart + (1 - kMeshingPart) * f); };
   }
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::Mesh mesh, mesher.mesh(scene, request, meshing));
-  return engine::simplify(mesh, *simplification_error, simplifying);
+  const bool keeps_all = refinement.shells.keeps_all();
+  ISOFIELD_ASSIGN_OR_RETURN(engine::Mesh mesh,
+                            mesher.mesh(scene, request, meshing, keeps_all ? &totals.shells : nullptr));
+  if (!keeps_all) {
+    engine::KeptShells kept = engine::keep_shells(mesh, refinement.shells, request.cell_size);
+    mesh = std::move(kept.mesh);
+    totals.shells = kept.shells;
+    totals.dropped = kept.dropped;
+  }
+  if (refinement.simplification_error) {
+    ISOFIELD_ASSIGN_OR_RETURN(mesh, engine::simplify(mesh, *refinement.simplification_error, simplifying));
+  }
+  totals.add(mesh);
+  return mesh;
 }
 
 // Nothing: all.
@@ -100,8 +123,8 @@ grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshReque
   MeshTotals totals;
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
-  const auto simplification_error = read_simplification_error(*request);
-  if (!simplification_error.ok()) return to_grpc(simplification_error.status());
+  const absl::StatusOr<Refinement> refinement = Refinement::read(*request);
+  if (!refinement.ok()) return to_grpc(refinement.status());
   const engine::MeshCallbacks callbacks = callbacks_of(*context, *writer);
   const absl::StatusOr<engine::MeshRequest> r =
       read_mesh_request(*request, *leased->scene, engine_.mesher(), limits_, callbacks.cancelled);
@@ -113,23 +136,20 @@ grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshReque
     return written ? absl::OkStatus() : client_gone();
   };
   absl::Status status;
-  if (*simplification_error) {
-    const auto mesh = make_mesh(engine_.mesher(), *leased->scene, *r, *simplification_error, callbacks);
-    status = mesh.status();
-    if (mesh.ok()) {
-      totals.add(*mesh);
-      status = write(*mesh, mesh->triangles);
-    }
-  } else {
+  if (refinement->is_none()) {
     engine::MeshJoiner joiner;
-    status = engine_.mesher().cells(*leased->scene, *r, callbacks, [&](const engine::MeshCells& cells) {
+    const auto deliver = [&](const engine::MeshCells& cells) {
       totals.add(cells);
       return write(cells, joiner.number(cells));
-    });
+    };
+    status = engine_.mesher().cells(*leased->scene, *r, callbacks, deliver, &totals.shells);
+  } else {
+    const auto mesh = make_mesh(engine_.mesher(), *leased->scene, *r, *refinement, callbacks, totals);
+    status = mesh.ok() ? write(*mesh, mesh->triangles) : mesh.status();
   }
   if (!status.ok()) return to_grpc(status);
   v1::MeshResponse response;
-  fill_summary(totals, *r, *leased->scene, leased->version, *response.mutable_summary());
+  fill_summary(totals, *r, *leased, *response.mutable_summary());
   return writer->Write(response) ? grpc::Status::OK : to_grpc(client_gone());
 }
 
@@ -138,7 +158,7 @@ grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::
   MeshTotals totals;
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->mesh().scene());
   if (!leased.ok()) return to_grpc(leased.status());
-  if (const absl::Status status = check_not_simplified(request->mesh()); !status.ok()) return to_grpc(status);
+  if (const absl::Status status = check_as_made(request->mesh()); !status.ok()) return to_grpc(status);
   const engine::MeshCallbacks callbacks = callbacks_of(*context, *writer);
   absl::StatusOr<engine::MeshRequest> r =
       read_mesh_request(request->mesh(), *leased->scene, engine_.mesher(), limits_, callbacks.cancelled);
@@ -146,19 +166,19 @@ grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::
   auto part = read_part(*request);
   if (!part.ok()) return to_grpc(part.status());
   r->part = *part;
-  const absl::Status status =
-      engine_.mesher().cells(*leased->scene, *r, callbacks, [&](const engine::MeshCells& cells) {
-        totals.add(cells);
-        const bool written = write_bricks(cells, [&](v1::MeshBricks bricks) {
-          v1::MeshBricksResponse response;
-          *response.mutable_bricks() = std::move(bricks);
-          return writer->Write(response);
-        });
-        return written ? absl::OkStatus() : client_gone();
-      });
+  const auto deliver = [&](const engine::MeshCells& cells) {
+    totals.add(cells);
+    const bool written = write_bricks(cells, [&](v1::MeshBricks bricks) {
+      v1::MeshBricksResponse response;
+      *response.mutable_bricks() = std::move(bricks);
+      return writer->Write(response);
+    });
+    return written ? absl::OkStatus() : client_gone();
+  };
+  const absl::Status status = engine_.mesher().cells(*leased->scene, *r, callbacks, deliver, &totals.shells);
   if (!status.ok()) return to_grpc(status);
   v1::MeshBricksResponse response;
-  fill_summary(totals, *r, *leased->scene, leased->version, *response.mutable_summary());
+  fill_summary(totals, *r, *leased, *response.mutable_summary());
   return writer->Write(response) ? grpc::Status::OK : to_grpc(client_gone());
 }
 
@@ -177,15 +197,15 @@ grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRe
   MeshTotals totals;
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
-  const auto simplification_error = read_simplification_error(*request);
-  if (!simplification_error.ok()) return to_grpc(simplification_error.status());
+  const absl::StatusOr<Refinement> refinement = Refinement::read(*request);
+  if (!refinement.ok()) return to_grpc(refinement.status());
   const engine::MeshCallbacks callbacks{.cancelled = [&] { return context->IsCancelled(); }};
   absl::StatusOr<engine::MeshRequest> r =
       read_mesh_request(*request, *leased->scene, engine_.mesher(), limits_, callbacks.cancelled);
   if (!r.ok()) return to_grpc(r.status());
   r->with_normals = false;
   const absl::StatusOr<engine::Mesh> mesh =
-      make_mesh(engine_.mesher(), *leased->scene, *r, *simplification_error, callbacks);
+      make_mesh(engine_.mesher(), *leased->scene, *r, *refinement, callbacks, totals);
   if (!mesh.ok()) return to_grpc(mesh.status());
 
   const engine::MeshMeasures measures = engine::measure(*mesh);
@@ -196,8 +216,7 @@ grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRe
     set_vector(measures.bounds.min, *response->mutable_bounds_min());
     set_vector(measures.bounds.max, *response->mutable_bounds_max());
   }
-  totals.add(*mesh);
-  fill_summary(totals, *r, *leased->scene, leased->version, *response->mutable_summary());
+  fill_summary(totals, *r, *leased, *response->mutable_summary());
   return grpc::Status::OK;
 }
 

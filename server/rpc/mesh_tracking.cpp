@@ -25,13 +25,13 @@ absl::Status MeshTracking::begin(const v1::MeshRequest& request) {
   if (request.scene().ref_case() != v1::SceneRef::kName) {
     return absl::InvalidArgumentError("begin.scene: expected the name of a scene that the server keeps");
   }
-  ISOFIELD_RETURN_IF_ERROR(check_not_simplified(request));
+  ISOFIELD_RETURN_IF_ERROR(check_as_made(request));
   scene_ = request.scene();
   ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(scene_));
   ISOFIELD_ASSIGN_OR_RETURN(request_, read_mesh_request(request, *leased.scene, engine_.mesher(), limits_,
                                                         [&] { return context_.IsCancelled(); }));
   tracker_.emplace(engine_.mesher(), request_);
-  return answer(leased.scene, leased.version);
+  return answer(leased);
 }
 
 absl::Status MeshTracking::follow(const v1::TrackMeshRequest& request) {
@@ -44,21 +44,21 @@ absl::Status MeshTracking::follow(const v1::TrackMeshRequest& request) {
       }
       ISOFIELD_ASSIGN_OR_RETURN(const StoredScene stored,
                                 editor_.edit(scene_.name(), read_edits(edit.edits()), edit.expected_version()));
-      return answer(stored.lease, stored.entry.version);
+      return answer({stored.lease, stored.entry.version, stored.entry.scene});
     }
     case v1::TrackMeshRequest::kRefresh: {
       ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(scene_));
-      return answer(leased.scene, leased.version);
+      return answer(leased);
     }
     default:
       return absl::InvalidArgumentError("expected edit or refresh: begin is the stream's first message alone");
   }
 }
 
-absl::Status MeshTracking::answer(const engine::SceneLease& scene, std::uint64_t scene_version) {
+absl::Status MeshTracking::answer(const LeasedScene& leased) {
   MeshTotals totals;
   ISOFIELD_ASSIGN_OR_RETURN(const engine::MeshTracker::Update update,
-                            tracker_->update(scene, {.cancelled = [&] { return context_.IsCancelled(); }}));
+                            tracker_->update(leased.scene, {.cancelled = [&] { return context_.IsCancelled(); }}));
   ++version_;
   // The last message is held back until it is known to be that.
   v1::MeshUpdate next;
@@ -73,7 +73,7 @@ absl::Status MeshTracking::answer(const engine::SceneLease& scene, std::uint64_t
     totals.cells += cells.cells;
     const bool written = write_bricks(cells, [&](v1::MeshBricks bricks) {
       if (next.has_bricks()) {
-        next.set_scene_version(scene_version);
+        next.set_scene_version(leased.version);
         status = write(std::exchange(next, {}));
       }
       *next.mutable_bricks() = std::move(bricks);
@@ -83,9 +83,9 @@ absl::Status MeshTracking::answer(const engine::SceneLease& scene, std::uint64_t
   }
   totals.vertices = tracker_->vertices();
   totals.triangles = tracker_->triangles();
-  next.set_scene_version(scene_version);
+  next.set_scene_version(leased.version);
   next.set_is_last(true);
-  fill_summary(totals, request_, *scene, scene_version, *next.mutable_summary());
+  fill_summary(totals, request_, leased, *next.mutable_summary());
   return write(std::move(next));
 }
 

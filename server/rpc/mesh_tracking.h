@@ -32,7 +32,7 @@ class MeshTracking {
  private:
   absl::Status begin(const v1::MeshRequest& request);
   absl::Status follow(const v1::TrackMeshRequest& request);
-  absl::Status answer(const engine::SceneLease& scene, std::uint64_t scene_version);
+  absl::Status answer(const LeasedScene& leased);
   absl::Status write(v1::MeshUpdate update);
 
   const SceneSource& scenes_;

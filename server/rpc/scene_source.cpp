@@ -1,5 +1,7 @@
 #include "rpc/scene_source.h"
 
+#include <absl/strings/str_cat.h>
+
 #include "engine/status_macros.h"
 
 namespace isofield::rpc {
@@ -10,6 +12,11 @@ absl::Status no_scene() {
 }
 
 }  // namespace
+
+std::string node_name(const v1::Scene& scene, std::uint32_t node) {
+  const std::string& name = scene.nodes(static_cast<int>(node)).name();
+  return name.empty() ? absl::StrCat("#", node) : name;
+}
 
 absl::StatusOr<LeasedScene> SceneSource::lease(const v1::SceneRef& ref) const {
   switch (ref.ref_case()) {

@@ -3,6 +3,8 @@
 
 #include <absl/status/statusor.h>
 
+#include <string>
+
 #include "catalog/catalog.h"
 #include "catalog/operator_catalog.h"
 #include "engine/engine.h"
@@ -16,6 +18,9 @@ struct LeasedScene {
   // What it was made of; of an inline one the request's own, which must outlive this.
   std::shared_ptr<const v1::Scene> message;
 };
+
+// As answers name a node of a scene: its name, or "#place" of one without.
+std::string node_name(const v1::Scene& scene, std::uint32_t node);
 
 struct FoundScene {
   std::shared_ptr<const v1::Scene> scene;

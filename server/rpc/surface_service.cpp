@@ -62,10 +62,7 @@ void set_names(const v1::Scene& scene, std::vector<std::uint32_t>& nodes, v1::Ca
   std::sort(hit.begin(), hit.end());
   hit.erase(std::unique(hit.begin(), hit.end()), hit.end());
   if (!hit.empty() && hit.back() == engine::RayHits::kNoNode) hit.pop_back();
-  for (const std::uint32_t node : hit) {
-    const std::string& name = scene.nodes(static_cast<int>(node)).name();
-    response.add_names(name.empty() ? absl::StrCat("#", node) : name);
-  }
+  for (const std::uint32_t node : hit) response.add_names(node_name(scene, node));
   for (std::uint32_t& node : nodes) {
     if (node == engine::RayHits::kNoNode) continue;
     node = static_cast<std::uint32_t>(std::lower_bound(hit.begin(), hit.end(), node) - hit.begin());

@@ -1,4 +1,5 @@
 // Meshes made on the device.
+#include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <iostream>
 #include <vector>
 
+#include "engine/cell_size.h"
 #include "engine/mesh_simplifier.h"
 #include "engine/mesher.h"
 #include "engine/surface_cases.h"
@@ -23,9 +25,10 @@ using engine::Mesh;
 using engine::MeshRequest;
 
 absl::StatusOr<Mesh> mesh(const v1::Scene& scene, const MeshRequest& request,
-                          const engine::MeshCallbacks& callbacks = {}) {
+                          const engine::MeshCallbacks& callbacks = {},
+                          std::optional<engine::ShellCounts>* shells = nullptr) {
   static engine::Mesher mesher(device(), kernels(), workers());
-  return mesher.mesh(*resident(scene), request, callbacks);
+  return mesher.mesh(*resident(scene), request, callbacks, shells);
 }
 
 // Far vertices, in cells by the linearised distance; and normals that do not follow the gradient.
@@ -231,6 +234,38 @@ TEST(Mesher, StatesTheSmallestCellThatFits) {
   EXPECT_TRUE(mesh(sphere_scene(), request).ok()) << text;
   request.cell_size *= 0.9;
   EXPECT_FALSE(mesh(sphere_scene(), request).ok()) << text;
+}
+
+// engine/cell_size.h: a ball of the radius holds a corner of a cell wherever it lies.
+TEST(Mesher, KeepsThinChainsWholeAtTheCoarsestCellThatIsSaidToDo) {
+  constexpr double kRadius = 0.1;
+  int torn = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    test_support::Random random(seed);
+    std::string nodes, names;
+    blobtree::dvec3 at = random.point(-1, 1);
+    for (int i = 0; i < 60; ++i) {
+      blobtree::dvec3 step = random.point(-1, 1);
+      // Along faces and diagonals of the cells too, where samples are the farthest.
+      if (i % 3 == 0) step = {std::round(step.x), std::round(step.y), 0.5};
+      const blobtree::dvec3 next = at + step * (0.7 / std::max(length(step), 0.1));
+      absl::StrAppend(&nodes, R"({"segment": {"a": [)", at.x, ",", at.y, ",", at.z, R"(], "b": [)", next.x, ",", next.y,
+                      ",", next.z, R"(], "radius_a": 0.1, "radius_b": 0.1, "range": 0.05}},)");
+      absl::StrAppend(&names, i == 0 ? "" : ",", "\"#", i, "\"");
+      at = next;
+    }
+    const v1::Scene scene =
+        test_support::scene_of_nodes(absl::StrCat(nodes, R"({"max": {"children": [)", names, "]}}"));
+    const auto bodies = [&](double cells_of_radius) {
+      std::optional<engine::ShellCounts> shells;
+      const auto made = mesh(scene, {.cell_size = cells_of_radius * kRadius}, {}, &shells);
+      EXPECT_TRUE(made.ok()) << made.status();
+      return shells ? shells->bodies : 0;
+    };
+    EXPECT_EQ(bodies(engine::kCoarsestCellOfRadius), 1u) << "seed " << seed;
+    torn += bodies(1.4) > 1;
+  }
+  EXPECT_GT(torn, 3) << "chains that coarser cells tear: else this test says little";
 }
 
 TEST(Mesher, StopsWhenCancelled) {

@@ -195,6 +195,77 @@ TEST_F(Mesh, OfNothingIsEmpty) {
   EXPECT_TRUE(peer_.mesh(request).triangles.empty()) << "with a cell size of the server's choice";
 }
 
+// A hollow ball with a smaller one inside, and another beside it.
+v1::Scene hollow_scene() {
+  return test_support::scene_of_nodes(R"(
+    {"name": "outer", "sphere": {"radius": 1, "range": 0.2}},
+    {"name": "hole", "sphere": {"radius": 0.8, "range": 0.2}},
+    {"name": "hollow", "difference": {"children": ["outer", "hole"]}},
+    {"name": "kernel", "sphere": {"radius": 0.3, "range": 0.2}},
+    {"name": "beside", "sphere": {"center": [3, 0, 0], "radius": 0.5, "range": 0.2}},
+    {"max": {"children": ["hollow", "kernel", "beside"]}})");
+}
+
+TEST_F(Mesh, CountsItsBodiesAndVoidsAndLeavesThemOut) {
+  v1::MeshRequest request = mesh_request(inlined(hollow_scene()), 0.05);
+  const auto counts = [](const v1::MeshSummary& s) {
+    return std::vector<std::uint64_t>{s.bodies(), s.voids(), s.dropped_bodies(), s.dropped_voids()};
+  };
+  const auto check = [&](const std::vector<std::uint64_t>& expected, double volume) {
+    const ReceivedMesh received = peer_.mesh(request);
+    expect_sound(received);
+    EXPECT_TRUE(received.summary.has_bodies() && received.summary.has_voids());
+    EXPECT_EQ(counts(received.summary), expected);
+    EXPECT_EQ(counts(peer_.mesh(request).summary), expected) << "kept from before";
+    const test_support::MeshReport report = test_support::check_mesh(received.positions, received.triangles);
+    EXPECT_EQ(report.components, expected[0] + expected[1]);
+    EXPECT_NEAR(report.volume, volume, 0.02 * volume);
+    grpc::ClientContext context;
+    v1::MeasureResponse measured;
+    ASSERT_TRUE(ok(peer_.meshes().Measure(&context, request, &measured)));
+    EXPECT_EQ(counts(measured.summary()), expected);
+    EXPECT_NEAR(measured.volume(), report.volume, 1e-6);
+  };
+  const auto ball = [](double r) { return 4.0 / 3 * M_PI * r * r * r; };
+  check({3, 1, 0, 0}, ball(1) - ball(0.8) + ball(0.3) + ball(0.5));
+  request.set_largest_body(true);
+  check({1, 1, 2, 0}, ball(1) - ball(0.8));
+  request.set_fill_voids(true);
+  check({1, 0, 2, 1}, ball(1));
+  request.set_largest_body(false);
+  check({2, 0, 1, 1}, ball(1) + ball(0.5));
+  request.set_simplification_error(0.005);
+  check({2, 0, 1, 1}, ball(1) + ball(0.5));
+}
+
+TEST_F(Mesh, SaysWhichPrimitiveIsTooThinForItsCells) {
+  v1::Scene scene = test_support::scene_of_nodes(R"(
+    {"name": "ball", "sphere": {"center": [3, 0, 0], "radius": 1, "range": 1}},
+    {"segment": {"a": [4, 0, 0], "b": [12, 3, 2], "radius_a": 0.1, "radius_b": 0.1, "range": 0.1}},
+    {"gradient": {"children": ["ball", "#1"]}})");
+  scene.set_unit("mm");
+  const ReceivedMesh torn = peer_.mesh(mesh_request(inlined(scene), 0.3));
+  EXPECT_GT(torn.summary.bodies(), 1u);
+  ASSERT_TRUE(torn.summary.has_too_thin());
+  EXPECT_EQ(torn.summary.too_thin().node(), "#1");
+  EXPECT_EQ(torn.summary.too_thin().primitives(), 1u);
+  EXPECT_NEAR(torn.summary.too_thin().thickness(), 0.2, 1e-9);
+  EXPECT_EQ(torn.summary.unit(), "mm");
+  const ReceivedMesh whole = peer_.mesh(mesh_request(inlined(scene), torn.summary.too_thin().cell_size()));
+  EXPECT_FALSE(whole.summary.has_too_thin());
+  EXPECT_EQ(whole.summary.bodies(), 1u);
+  const ReceivedMesh none = peer_.mesh(mesh_request(inlined(scene), 1000));
+  EXPECT_TRUE(none.triangles.empty());
+  EXPECT_EQ(none.summary.bodies(), 0u);
+  EXPECT_EQ(none.summary.too_thin().primitives(), 2u);
+  // By default the server's cells follow it.
+  v1::MeshRequest automatic;
+  *automatic.mutable_scene() = inlined(scene);
+  const v1::MeshSummary summary = peer_.mesh(automatic).summary;
+  EXPECT_EQ(summary.bodies(), 1u);
+  EXPECT_FALSE(summary.has_too_thin());
+}
+
 TEST_F(Mesh, ReportsProgressThatNeverFalls) {
   const ReceivedMesh received = peer_.mesh(mesh_request(inlined(ball_.scene()), 0.004));
   EXPECT_FALSE(received.progress.empty());
