@@ -19,6 +19,16 @@ std::string format(const google::protobuf::Message& message) {
 
 }  // namespace
 
+JsonObject::JsonObject(const google::protobuf::Message& message) {
+  (void)google::protobuf::util::JsonStringToMessage(format(message), &fields_);
+}
+
+JsonObject& JsonObject::set(const std::string& key, const std::vector<std::string>& values) {
+  auto& list = *(*fields_.mutable_fields())[key].mutable_list_value();
+  for (const std::string& value : values) list.add_values()->set_string_value(value);
+  return *this;
+}
+
 JsonObject& JsonObject::set(const std::string& key, double value) {
   (*fields_.mutable_fields())[key].set_number_value(value);
   return *this;

@@ -13,9 +13,14 @@ namespace isofield {
 // An object for --json, built field by field.
 class JsonObject {
  public:
+  JsonObject() = default;
+  // With the fields of a message, as below.
+  explicit JsonObject(const google::protobuf::Message& message);
+
   JsonObject& set(const std::string& key, double value);
   JsonObject& set(const std::string& key, const std::string& value);
   JsonObject& set(const std::string& key, const JsonObject& value);
+  JsonObject& set(const std::string& key, const std::vector<std::string>& values);
   // A message in proto3 JSON.
   JsonObject& set(const std::string& key, const google::protobuf::Message& message);
 

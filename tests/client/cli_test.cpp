@@ -87,6 +87,34 @@ TEST_F(CliTest, MeshesAndRenders) {
   EXPECT_EQ(run("mesh none -o " + path("none.glb")), 1);
 }
 
+TEST_F(CliTest, WarnsOfCellsThatAreTooCoarse) {
+  write_file(path("ball.json"), kBall);
+  EXPECT_EQ(run("mesh " + path("ball.json") + " -o " + path("a.glb")), 0);
+  EXPECT_TRUE(absl::StrContains(out_, "a.glb: 1 body, 2048 vertices")) << out_;
+  EXPECT_EQ(err_, "");
+  EXPECT_EQ(run("mesh " + path("ball.json") + " --largest -o " + path("a.glb")), 0);
+  EXPECT_TRUE(absl::StrContains(out_, "a.glb: 1 body (2 bodies left out), ")) << out_;
+  server_.too_thin = true;
+  for (const std::string& command : {"mesh " + path("ball.json") + " -o " + path("a.glb"),
+                                     "render " + path("ball.json") + " --size 64x48 -o " + path("a.png")}) {
+    EXPECT_EQ(run(command), 0);
+    EXPECT_TRUE(absl::StrContains(out_, ": 3 bodies, ")) << out_;
+    EXPECT_TRUE(absl::StrContains(err_,
+                                  "warning: cells of 12.5 are too coarse for 1 primitive: n7, the thinnest, is 20 "
+                                  "across and takes cells of at most 11.5; the mesh has 3 bodies and may be torn "
+                                  "or lack parts; the server admits no smaller ones"))
+        << err_;
+    EXPECT_EQ(run(command + " --cell 12.5"), 0);
+    EXPECT_TRUE(absl::StrContains(err_, "; --cell 11.5 would do\n")) << err_;
+    EXPECT_EQ(run(command + " --resolution 50"), 0);
+    EXPECT_TRUE(absl::StrContains(err_, "higher --resolution")) << err_;
+    EXPECT_EQ(run("--json " + command), 0);
+    EXPECT_EQ(err_, "");
+    EXPECT_TRUE(absl::StrContains(out_, "\"warnings\":[\"cells of 12.5 are too coarse")) << out_;
+    EXPECT_TRUE(absl::StrContains(out_, "\"too_thin\":{")) << out_;
+  }
+}
+
 TEST_F(CliTest, ExitCodesTellServersFilesAndUsageApart) {
   write_file(path("bad.json"), "{\"nodes\": [{]}");
   EXPECT_EQ(run("put " + path("bad.json")), 4);

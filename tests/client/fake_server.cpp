@@ -195,6 +195,17 @@ class FakeServer::Meshes : public v1::MeshService::Service {
     }
     const auto mesh = torus_mesh(64, 32, 1.0f, 0.4f);
     *response.mutable_summary() = mesh.summary;
+    v1::MeshSummary& summary = *response.mutable_summary();
+    summary.set_bodies(owner_.too_thin ? 3 : 1);
+    summary.set_voids(0);
+    if (request->largest_body()) summary.set_dropped_bodies(2);
+    if (owner_.too_thin) {
+      summary.set_cell_size(12.5);
+      summary.mutable_too_thin()->set_node("n7");
+      summary.mutable_too_thin()->set_thickness(20);
+      summary.mutable_too_thin()->set_cell_size(11.547);
+      summary.mutable_too_thin()->set_primitives(1);
+    }
     if (owner_.wrong_summary) response.mutable_summary()->set_vertices(mesh.vertex_count() + 1);
     writer->Write(response);
     // Parts: halves of the vertices, then all triangles.

@@ -37,6 +37,7 @@ class FakeServer {
   std::atomic<bool> endless_mesh = false;
   std::atomic<bool> mesh_cancelled = false;
   std::atomic<bool> wrong_summary = false;
+  std::atomic<bool> too_thin = false;  // the mesh is said to have cells that are too coarse
 
  private:
   class Scenes;

@@ -194,5 +194,49 @@ TEST_F(Command, InterruptedItRemovesWhatItBegan) {
   }
 }
 
+TEST_F(Command, ARefusedCellIsRefusedInTheWordsOfItsOption) {
+  const std::string ball = path("ball.json");
+  for (const char* const name : {"mesh", "render", "measure"}) {
+    const std::string command = name;
+    std::vector<std::string> arguments{command, ball};
+    if (command != "measure") arguments.insert(arguments.end(), {"-o", path(command == "mesh" ? "a.glb" : "a.png")});
+    const auto with = [&](const std::string& option, const std::string& value) {
+      std::vector<std::string> all = arguments;
+      all.insert(all.end(), {option, value});
+      return all;
+    };
+    expect_exit(1, with("--cell", "1e-30"),
+                {"cell_size = 1e-30 takes more than the ", "smallest cell size", "(--cell)"});
+    expect_exit(1, with("--resolution", "1048576"),
+                {"resolution = 1048576 takes more than the ", "largest resolution", "(--resolution)"});
+    expect_exit(0, with("--cell", "1000"),
+                {"warning: cells of 1000 are too coarse for 1 primitive: ball, the thinnest, "
+                 "is 2 across",
+                 "may be torn or lack parts; --cell 1.15 would do"});
+  }
+  write_file(path("origins.csv"), "0,0,3\n");
+  expect_exit(1, {"ray", ball, "--origins", path("origins.csv"), "--direction", "0,0,-1", "--cell", "1e-30"},
+              {"cell_size = 1e-30 takes more than the ", "(--cell)"});
+}
+
+TEST_F(Command, KeepsTheLargestBodyAndFillsVoids) {
+  write_file(path("two.json"), R"({"unit": "mm", "nodes": [
+    {"name": "outer", "sphere": {"radius": 1, "range": 0.2}}, {"name": "hole", "sphere": {"radius": 0.7, "range": 0.2}},
+    {"name": "hollow", "difference": {"children": ["outer", "hole"]}},
+    {"name": "beside", "sphere": {"center": [3, 0, 0], "radius": 0.5, "range": 0.2}},
+    {"max": {"children": ["hollow", "beside"]}}]})");
+  const auto mesh = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all{"mesh", path("two.json"), "--cell", "0.1", "-o", path("two.glb")};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = isofield(all);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    return outcome.output;
+  };
+  EXPECT_NE(mesh({}).find("two.glb: 2 bodies, 1 void, "), std::string::npos);
+  EXPECT_NE(mesh({"--largest"}).find("two.glb: 1 body, 1 void (1 body left out), "), std::string::npos);
+  EXPECT_NE(mesh({"--fill-voids"}).find("two.glb: 2 bodies (1 void left out), "), std::string::npos);
+  EXPECT_NE(mesh({"--largest", "--fill-voids"}).find("two.glb: 1 body (1 body, 1 void left out), "), std::string::npos);
+}
+
 }  // namespace
 }  // namespace isofield::integration_test

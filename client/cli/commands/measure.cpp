@@ -16,8 +16,9 @@ absl::Status measure(const Context& context, const MeshFlags& flags) {
   if (!client.ok()) return client.status();
   const auto m = client->measure(*request);
   if (!m.ok()) return flags.explain(m.status());
+  const std::vector<std::string> warnings = mesh_warnings(m->summary(), flags.cells_by());
   if (context.json) {
-    print_json(*m);
+    JsonObject(*m).set("warnings", warnings).print();
     return absl::OkStatus();
   }
   absl::PrintF("area     %.9g\nvolume   %.9g\n", m->area(), m->volume());
@@ -28,9 +29,9 @@ absl::Status measure(const Context& context, const MeshFlags& flags) {
     absl::PrintF("bounds   %.9g %.9g %.9g to %.9g %.9g %.9g\n", m->bounds_min(0), m->bounds_min(1), m->bounds_min(2),
                  m->bounds_max(0), m->bounds_max(1), m->bounds_max(2));
   }
-  absl::PrintF("mesh     %u vertices, %u triangles, cell %g\n", m->summary().vertices(), m->summary().triangles(),
-               m->summary().cell_size());
-  if (m->summary().triangles() == 0) absl::FPrintF(stderr, "the surface is empty\n");
+  absl::PrintF("mesh     %s%u vertices, %u triangles, cell %g\n", shells_clause(m->summary()), m->summary().vertices(),
+               m->summary().triangles(), m->summary().cell_size());
+  print_warnings(warnings);
   return absl::OkStatus();
 }
 
@@ -39,7 +40,8 @@ absl::Status measure(const Context& context, const MeshFlags& flags) {
 void add_measure_command(CLI::App& app, Context& context) {
   const auto flags = std::make_shared<MeshFlags>();
   flags->omit_normals = true;
-  CLI::App* command = app.add_subcommand("measure", "Area, volume, centroid and bounds of the surface's mesh");
+  CLI::App* command =
+      app.add_subcommand("measure", "Area, volume, centroid, bounds, bodies and voids of the surface's mesh");
   flags->add_to(*command);
   command->callback([&context, flags] { context.outcome = measure(context, *flags); });
 }

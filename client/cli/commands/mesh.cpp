@@ -32,6 +32,7 @@ absl::Status mesh(const Context& context, const MeshFlags& flags, const std::str
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
   const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::vector<std::string> warnings = mesh_warnings(mesh->summary, flags.cells_by());
   if (context.json) {
     JsonObject()
         .set("file", output)
@@ -39,12 +40,13 @@ absl::Status mesh(const Context& context, const MeshFlags& flags, const std::str
         .set("request_seconds", seconds)
         .set("write_seconds", write_seconds)
         .set("summary", mesh->summary)
+        .set("warnings", warnings)
         .print();
   } else {
-    absl::PrintF("%s: %u vertices, %u triangles, cell %g; server %.3f s, request %.3f s, writing %.3f s\n", output,
-                 mesh->vertex_count(), mesh->triangle_count(), mesh->summary.cell_size(), mesh->summary.seconds(),
-                 seconds, write_seconds);
-    if (mesh->triangles.empty()) absl::FPrintF(stderr, "the surface is empty\n");
+    absl::PrintF("%s: %s%u vertices, %u triangles, cell %g; server %.3f s, request %.3f s, writing %.3f s\n", output,
+                 shells_clause(mesh->summary), mesh->vertex_count(), mesh->triangle_count(), mesh->summary.cell_size(),
+                 mesh->summary.seconds(), seconds, write_seconds);
+    print_warnings(warnings);
   }
   return absl::OkStatus();
 }

@@ -36,6 +36,8 @@ void MeshFlags::add_to(CLI::App& command) {
       .add_option("--simplify", simplify,
                   "Fewer triangles, within this distance of the mesh, in model units (default: all of them)")
       ->check(CLI::Validator(check_positive, "above 0"));
+  command.add_flag("--largest", largest_body, "Keep only the body that encloses most, with its voids");
+  command.add_flag("--fill-voids", fill_voids, "Leave out voids, and what floats inside of them");
   import.add_to(command);
 }
 
@@ -56,6 +58,8 @@ absl::StatusOr<v1::MeshRequest> MeshFlags::message() const {
   if (tolerance) request.set_tolerance(*tolerance);
   if (simplify) request.set_simplification_error(*simplify);
   request.set_omit_normals(omit_normals);
+  request.set_largest_body(largest_body);
+  request.set_fill_voids(fill_voids);
   return request;
 }
 
@@ -76,10 +80,17 @@ absl::StatusOr<Mesh> MeshFlags::request(const Context& context, double& seconds)
 }
 
 absl::Status MeshFlags::explain(const absl::Status& refusal) const {
-  if (!bounds.empty() || !absl::IsInvalidArgument(refusal) || !absl::StrContains(refusal.message(), "bounds")) {
-    return refusal;
-  }
-  return absl::InvalidArgumentError(absl::StrCat(refusal.message(), " (--bounds)"));
+  const absl::string_view message = refusal.message();
+  const char* flag = nullptr;
+  if (bounds.empty() && absl::IsInvalidArgument(refusal) && absl::StrContains(message, "bounds")) flag = "--bounds";
+  if (absl::StartsWith(message, "cell_size")) flag = "--cell";
+  if (absl::StartsWith(message, "resolution")) flag = "--resolution";
+  return flag == nullptr ? refusal : absl::Status(refusal.code(), absl::StrCat(message, " (", flag, ")"));
+}
+
+CellsBy MeshFlags::cells_by() const {
+  if (cell) return CellsBy::kCell;
+  return resolution ? CellsBy::kResolution : CellsBy::kServer;
 }
 
 }  // namespace isofield

@@ -8,6 +8,7 @@
 
 #include "commands/context.h"
 #include "commands/import_flags.h"
+#include "commands/mesh_report.h"
 
 namespace isofield {
 
@@ -18,7 +19,7 @@ struct MeshFlags {
   std::optional<std::uint32_t> resolution;
   std::vector<double> bounds;  // x0, y0, z0, x1, y1, z1, or empty
   std::optional<double> iso, tolerance, simplify;
-  bool omit_normals = false;
+  bool omit_normals = false, largest_body = false, fill_voids = false;
   ImportFlags import;
 
   void add_to(CLI::App& command);
@@ -26,8 +27,9 @@ struct MeshFlags {
   absl::StatusOr<v1::MeshRequest> message() const;
   // With a progress line on a terminal. `seconds`: from the request to the last byte.
   absl::StatusOr<Mesh> request(const Context& context, double& seconds) const;
-  // With the flag's name where the server asks for bounds.
+  // With the flag's name where the server speaks of bounds, a cell size or a resolution.
   absl::Status explain(const absl::Status& refusal) const;
+  CellsBy cells_by() const;
 };
 
 }  // namespace isofield

@@ -1,3 +1,6 @@
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -35,6 +38,9 @@ absl::Status cast(Client& client, const v1::SceneRef& scene, const RayArguments&
     (i < 3 ? request.mutable_bounds_min() : request.mutable_bounds_max())->Add(arguments.bounds[i]);
   }
   const auto hits = client.cast_rays(request, origins, *directions);
+  if (!hits.ok() && absl::StartsWith(hits.status().message(), "cell_size")) {
+    return absl::Status(hits.status().code(), absl::StrCat(hits.status().message(), " (--cell)"));
+  }
   if (!hits.ok()) return hits.status();
   std::vector<std::string> names;
   for (const std::uint32_t node : hits->nodes) names.push_back(node == RayHits::kNothing ? "" : hits->names[node]);

@@ -65,17 +65,20 @@ absl::Status render_scene(const Context& context, const RenderArguments& argumen
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
   const double render_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::vector<std::string> warnings = mesh_warnings(mesh->summary, arguments.flags.cells_by());
   if (context.json) {
     JsonObject()
         .set("file", arguments.output)
         .set("request_seconds", seconds)
         .set("render_seconds", render_seconds)
         .set("summary", mesh->summary)
+        .set("warnings", warnings)
         .print();
   } else {
-    absl::PrintF("%s: %u triangles, cell %g; server %.3f s, request %.3f s, rendering %.3f s\n", arguments.output,
-                 mesh->triangle_count(), mesh->summary.cell_size(), mesh->summary.seconds(), seconds, render_seconds);
-    if (mesh->triangles.empty()) absl::FPrintF(stderr, "the surface is empty\n");
+    absl::PrintF("%s: %s%u triangles, cell %g; server %.3f s, request %.3f s, rendering %.3f s\n", arguments.output,
+                 shells_clause(mesh->summary), mesh->triangle_count(), mesh->summary.cell_size(),
+                 mesh->summary.seconds(), seconds, render_seconds);
+    print_warnings(warnings);
   }
   return absl::OkStatus();
 }
