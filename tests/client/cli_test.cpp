@@ -115,6 +115,37 @@ TEST_F(CliTest, WarnsOfCellsThatAreTooCoarse) {
   }
 }
 
+TEST_F(CliTest, MeshFilesAreInTheUnitThatIsAskedFor) {
+  write_file(path("ball.json"), kBall);
+  const auto mesh = [&](const std::string& options) { return run("--json mesh " + path("ball.json") + " " + options); };
+  const auto scale = [&](const std::string& text) {
+    return absl::StrContains(out_, "\"scale\":" + text + ",") || absl::StrContains(out_, "\"scale\":" + text + "}");
+  };
+  EXPECT_EQ(mesh("-o " + path("a.glb")), 0);
+  EXPECT_TRUE(scale("1")) << out_;
+  EXPECT_EQ(mesh("--units mm -o " + path("a.stl")), 2);
+  EXPECT_TRUE(absl::StrContains(err_, "the scene's unit is \"\"")) << err_;
+  EXPECT_EQ(mesh("--units furlong -o " + path("a.stl")), 2);
+  EXPECT_TRUE(absl::StrContains(err_, "--units furlong: expected m, ")) << err_;
+  EXPECT_EQ(mesh("--units mm --scale 2 -o " + path("a.stl")), 2);
+  EXPECT_EQ(mesh("--scale 0 -o " + path("a.stl")), 2);
+  EXPECT_EQ(mesh("--scale 1e30 -o " + path("a.stl")), 2);
+  server_.mesh_unit = "um";
+  EXPECT_EQ(mesh("-o " + path("a.glb")), 0);
+  EXPECT_TRUE(scale("1e-06") || scale("1e-6")) << out_;
+  EXPECT_EQ(mesh("-o " + path("a.ply")), 0);
+  EXPECT_TRUE(scale("1")) << out_;
+  EXPECT_TRUE(absl::StrContains(*read_file(path("a.ply")), "\ncomment unit um\n"));
+  EXPECT_EQ(mesh("--units nm -o " + path("a.ply")), 0);
+  EXPECT_TRUE(scale("1000")) << out_;
+  EXPECT_TRUE(absl::StrContains(*read_file(path("a.ply")), "\ncomment unit nm\n"));
+  EXPECT_EQ(mesh("--scale 2 -o " + path("a.ply")), 0);
+  EXPECT_TRUE(absl::StrContains(*read_file(path("a.ply")), "\ncomment unit um, coordinates times 2\n"));
+  server_.mesh_unit = "voxel";
+  EXPECT_EQ(mesh("-o " + path("a.glb")), 0);
+  EXPECT_TRUE(scale("1") && absl::StrContains(out_, "the scene's unit is \\\"voxel\\\"")) << out_;
+}
+
 TEST_F(CliTest, ExitCodesTellServersFilesAndUsageApart) {
   write_file(path("bad.json"), "{\"nodes\": [{]}");
   EXPECT_EQ(run("put " + path("bad.json")), 4);

@@ -196,6 +196,7 @@ class FakeServer::Meshes : public v1::MeshService::Service {
     const auto mesh = torus_mesh(64, 32, 1.0f, 0.4f);
     *response.mutable_summary() = mesh.summary;
     v1::MeshSummary& summary = *response.mutable_summary();
+    summary.set_unit(owner_.mesh_unit);
     summary.set_bodies(owner_.too_thin ? 3 : 1);
     summary.set_voids(0);
     if (request->largest_body()) summary.set_dropped_bodies(2);

@@ -38,6 +38,7 @@ class FakeServer {
   std::atomic<bool> mesh_cancelled = false;
   std::atomic<bool> wrong_summary = false;
   std::atomic<bool> too_thin = false;  // the mesh is said to have cells that are too coarse
+  std::string mesh_unit;               // of the summary
 
  private:
   class Scenes;

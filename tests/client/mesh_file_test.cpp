@@ -18,12 +18,12 @@
 namespace isofield {
 namespace {
 
-std::string written(const Mesh& mesh, MeshFormat format) {
+std::string written(const Mesh& mesh, MeshFormat format, const FileUnit& unit = {}) {
   const TemporaryDirectory directory;
   const std::string path = directory.path("mesh");
   auto file = OutputFile::create(path);
   EXPECT_TRUE(file.ok()) << file.status();
-  EXPECT_TRUE(write_mesh(mesh, format, "a \"torus\"", **file).ok());
+  EXPECT_TRUE(write_mesh(mesh, format, "a \"torus\"", **file, CreaseShading::kSharp, unit).ok());
   EXPECT_TRUE((*file)->commit().ok());
   return *read_file(path);
 }
@@ -42,6 +42,45 @@ TEST(MeshFile, FormatsByExtension) {
   EXPECT_EQ(mesh_format("a.GLB"), MeshFormat::kGlb);
   EXPECT_EQ(mesh_format("a.b/c.stl"), MeshFormat::kStl);
   EXPECT_FALSE(mesh_format("glb"));
+}
+
+// The format's unit is the metre: the node is scaled, the arrays keep the mesh's own numbers.
+TEST(MeshFile, AGlbIsScaledByItsNode) {
+  const Mesh mesh = torus_mesh(20, 10, 30000.0f, 100.0f);
+  const auto model_of = [&](double scale) {
+    const std::string glb = written(mesh, MeshFormat::kGlb, {scale, "m"});
+    tinygltf::Model model;
+    std::string error, warning;
+    EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(&model, &error, &warning,
+                                                          reinterpret_cast<const unsigned char*>(glb.data()),
+                                                          static_cast<unsigned>(glb.size())))
+        << error;
+    return model;
+  };
+  const tinygltf::Model model = model_of(8e-9);
+  EXPECT_EQ(model.nodes.at(0).scale, std::vector<double>(3, 8e-9));
+  EXPECT_EQ(array_of<float>(model, model.meshes.at(0).primitives.at(0).attributes.at("POSITION")), mesh.positions);
+  EXPECT_TRUE(model_of(1).nodes.at(0).scale.empty());
+}
+
+TEST(MeshFile, OtherFormatsAreScaledByTheirCoordinatesAndNameTheUnit) {
+  const Mesh mesh = torus_mesh(20, 10, 2.0f, 1.0f);
+  Mesh scaled = mesh;
+  for (float& x : scaled.positions) x *= 1000;
+  for (const MeshFormat format : {MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kStl}) {
+    EXPECT_EQ(written(mesh, format, {1000, ""}), written(scaled, format));
+    const std::string named = written(mesh, format, {1000, "8 nm"});
+    EXPECT_NE(named, written(scaled, format));
+    EXPECT_TRUE(absl::StrContains(named.substr(0, 120), "8 nm"));
+  }
+  EXPECT_TRUE(absl::StartsWith(written(mesh, MeshFormat::kObj, {1, "um"}), "# isofield\n# unit um\no "));
+  EXPECT_TRUE(absl::StrContains(written(mesh, MeshFormat::kPly, {1, "um"}), "\ncomment unit um\n"));
+  EXPECT_TRUE(absl::StartsWith(written(mesh, MeshFormat::kStl, {1, "um"}), std::string("isofield UNITS=um\0", 18)));
+  // Whatever a scene states stays within its line, and within STL's header.
+  const std::string long_unit(200, 'x');
+  EXPECT_EQ(written(mesh, MeshFormat::kStl, {1, long_unit}).size(), written(mesh, MeshFormat::kStl).size());
+  EXPECT_TRUE(
+      absl::StrContains(written(mesh, MeshFormat::kPly, {1, "a\nend_header\nb"}), "\ncomment unit a end_header b\n"));
 }
 
 TEST(MeshFile, GlbReadsBack) {

@@ -37,6 +37,12 @@ TEST(SwcImport, AnEdgeIsASegmentFromParentToSample) {
   EXPECT_FALSE(report.damaged());
 }
 
+TEST(SwcImport, IsInMicrometresUnlessStatedOtherwise) {
+  const std::string text = "1 3 0 0 0 2 -1\n2 3 10 0 0 1 1\n";
+  EXPECT_EQ(import_swc_text(text).scene.unit(), "um");
+  EXPECT_EQ(import_swc_text(text, {.unit = "8 nm"}).scene.unit(), "8 nm");
+}
+
 TEST(SwcImport, TheSomaIsASphereAndProcessesDoNotTaperFromIt) {
   const auto [scene, report] = import_swc_text("1 1 0 0 0 5 -1\n2 3 6 0 0 1 1\n3 3 9 0 0 1 2\n");
   ASSERT_EQ(scene.nodes_size(), 4);

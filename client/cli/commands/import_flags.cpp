@@ -26,7 +26,11 @@ void ImportFlags::add_to(CLI::App& command) {
       ->check(CLI::PositiveNumber)
       ->group(kGroup);
   command.add_flag("--keep-water", options.keep_water, "PDB: keep water molecules")->group(kGroup);
-  command.add_option("--unit", options.unit, "Unit of length to note in the scene")->group(kGroup);
+  command
+      .add_option("--unit", options.unit,
+                  "Unit of length of the file, to note in the scene, such as \"nm\" or \"8 nm\" (default: neurons um, "
+                  "molecules angstrom)")
+      ->group(kGroup);
 }
 
 ImportOptions ImportFlags::get() const {

@@ -8,37 +8,88 @@
 #include "commands/mesh_flags.h"
 #include "commands/scene_argument.h"
 #include "exit_codes.h"
+#include "isofield/unit.h"
 #include "json_output.h"
 #include "mesh_files/mesh_file.h"
 
 namespace isofield {
 namespace {
 
-absl::Status mesh(const Context& context, const MeshFlags& flags, const std::string& output, CreaseShading shading) {
+struct Arguments {
+  MeshFlags flags;
+  std::string output, units;
+  std::optional<double> scale;
+  bool smooth_creases = false;
+};
+
+// Coordinates of a thousand millionth to a thousand million of model units stay well within float32.
+constexpr double kLeastScale = 1e-18, kMostScale = 1e18;
+
+// What the file's coordinates are in. A GLB is in metres where the scene's unit is known; others stay in model units
+// unless told otherwise. A note that is left in `warnings` says where a unit was not understood.
+absl::StatusOr<FileUnit> file_unit(const Arguments& arguments, MeshFormat format, const std::string& scene_unit,
+                                   std::vector<std::string>& warnings) {
+  if (arguments.scale) {
+    if (scene_unit.empty()) return FileUnit{*arguments.scale, ""};
+    return FileUnit{*arguments.scale, absl::StrCat(scene_unit, ", coordinates times ", *arguments.scale)};
+  }
+  const std::optional<double> from = unit_in_metres(scene_unit);
+  if (!arguments.units.empty()) {
+    // Most quotients of units are short decimal numbers, which binary fractions miss by a rounding.
+    if (from)
+      return FileUnit{std::stod(absl::StrFormat("%.12g", *from / *unit_in_metres(arguments.units))), arguments.units};
+    return usage_error(absl::StrCat(
+        "--units ", arguments.units, ": the scene's unit is \"", scene_unit, "\", expected ", kUnitNames,
+        ", which its field `unit` states, or --unit where a file is imported; --scale states a factor instead"));
+  }
+  if (format != MeshFormat::kGlb) return FileUnit{1, scene_unit};
+  if (!from && !scene_unit.empty()) {
+    warnings.push_back(absl::StrCat("the scene's unit is \"", scene_unit, "\", expected ", kUnitNames,
+                                    "; the GLB's coordinates, which readers take for metres, are in model units "
+                                    "(--scale states a factor)"));
+  }
+  return FileUnit{from.value_or(1), "m"};
+}
+
+absl::Status mesh(const Context& context, const Arguments& arguments) {
+  const MeshFlags& flags = arguments.flags;
+  const std::string& output = arguments.output;
+  const CreaseShading shading = arguments.smooth_creases ? CreaseShading::kSmooth : CreaseShading::kSharp;
   const auto format = mesh_format(output);
   if (!format) {
     return usage_error(
         absl::StrCat(output, ": not a mesh format that can be written; expected .glb, .obj, .ply or .stl"));
   }
+  if (!arguments.units.empty() && !unit_in_metres(arguments.units)) {
+    return usage_error(absl::StrCat("--units ", arguments.units, ": expected ", kUnitNames));
+  }
   if (auto status = OutputFile::check(output); !status.ok()) return file_error(status);
   double seconds = 0;
   const auto mesh = flags.request(context, seconds);
   if (!mesh.ok()) return mesh.status();
+  std::vector<std::string> warnings = mesh_warnings(mesh->summary, flags.cells_by());
+  const auto unit = file_unit(arguments, *format, mesh->summary.unit(), warnings);
+  if (!unit.ok()) return unit.status();
+  if (!(unit->scale >= kLeastScale && unit->scale <= kMostScale)) {
+    return usage_error(absl::StrCat("coordinates times ", unit->scale,
+                                    " (--scale, --units): expected a factor within [", kLeastScale, ", ", kMostScale,
+                                    "]"));
+  }
   const auto start = std::chrono::steady_clock::now();
   auto file = OutputFile::create(output);
   if (!file.ok()) return file_error(file.status());
-  absl::Status status = write_mesh(*mesh, *format, stem(flags.scene), **file, shading);
+  absl::Status status = write_mesh(*mesh, *format, stem(flags.scene), **file, shading, *unit);
   const std::uint64_t bytes = (*file)->bytes();
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
   const double write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::vector<std::string> warnings = mesh_warnings(mesh->summary, flags.cells_by());
   if (context.json) {
     JsonObject()
         .set("file", output)
         .set("bytes", static_cast<double>(bytes))
         .set("request_seconds", seconds)
         .set("write_seconds", write_seconds)
+        .set("scale", unit->scale)
         .set("summary", mesh->summary)
         .set("warnings", warnings)
         .print();
@@ -54,11 +105,6 @@ absl::Status mesh(const Context& context, const MeshFlags& flags, const std::str
 }  // namespace
 
 void add_mesh_command(CLI::App& app, Context& context) {
-  struct Arguments {
-    MeshFlags flags;
-    std::string output;
-    bool smooth_creases = false;
-  };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("mesh", "Mesh the surface into a file");
   arguments->flags.add_to(*command);
@@ -66,10 +112,16 @@ void add_mesh_command(CLI::App& app, Context& context) {
   command->add_flag("--no-normals", arguments->flags.omit_normals, "Leave the normals out");
   command->add_flag("--smooth-creases", arguments->smooth_creases,
                     "One normal a vertex, on creases too (default: one for each side, in .glb and .obj)");
-  command->callback([&context, arguments] {
-    context.outcome = mesh(context, arguments->flags, arguments->output,
-                           arguments->smooth_creases ? CreaseShading::kSmooth : CreaseShading::kSharp);
-  });
+  auto* const units = command->add_option(
+      "--units", arguments->units,
+      "Unit of the file's coordinates, such as mm or \"8 nm\" (default: the scene's own; .glb: metres)");
+  command
+      ->add_option("--scale", arguments->scale,
+                   "Factor from model units to the file's coordinates, whatever the scene's unit (default: 1; .glb: "
+                   "metres in the scene's unit)")
+      ->check(CLI::Validator(check_positive, "above 0"))
+      ->excludes(units);
+  command->callback([&context, arguments] { context.outcome = mesh(context, *arguments); });
 }
 
 }  // namespace isofield

@@ -78,8 +78,16 @@ class Layout {
   int count_ = 0;
 };
 
+// Of the node; nothing for 1, which is the format's default.
+std::string scale_property(double scale) {
+  if (scale == 1) return "";
+  char digits[32];
+  const std::string text(digits, std::to_chars(digits, digits + sizeof(digits), scale).ptr);
+  return absl::StrCat(R"(,"scale":[)", text, ",", text, ",", text, "]");
+}
+
 // The JSON chunk. The format forbids empty arrays: an empty surface is a scene without nodes.
-std::string description(const Mesh& mesh, const std::string& name, Layout& layout) {
+std::string description(const Mesh& mesh, const std::string& name, double scale, Layout& layout) {
   std::string out = R"({"asset":{"version":"2.0","generator":"isofield"},"scene":0)";
   if (mesh.triangles.empty()) return out + R"(,"scenes":[{}]})";
   std::string attributes = absl::StrCat("\"POSITION\":", layout.add(mesh.positions.size(), 3, kFloat, kArrayBuffer,
@@ -88,7 +96,7 @@ std::string description(const Mesh& mesh, const std::string& name, Layout& layou
     absl::StrAppend(&attributes, ",\"NORMAL\":", layout.add(mesh.normals.size(), 3, kFloat, kArrayBuffer, ""));
   }
   const int indices = layout.add(mesh.triangles.size(), 1, kUnsignedInt, kElementArrayBuffer, "");
-  absl::StrAppend(&out, R"(,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":)", quoted(name),
+  absl::StrAppend(&out, R"(,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":)", quoted(name), scale_property(scale),
                   R"(}],"meshes":[{"name":)", quoted(name), R"(,"primitives":[{"attributes":{)", attributes,
                   R"(},"indices":)", indices, R"(,"material":0}]}])",
                   R"(,"materials":[{"name":"surface","pbrMetallicRoughness":{"baseColorFactor":[0.78,0.42,0.24,1],)",
@@ -103,10 +111,10 @@ absl::Status write_words(std::initializer_list<std::uint32_t> words, OutputFile&
 
 }  // namespace
 
-absl::Status write_glb(const Mesh& mesh, const std::string& name, OutputFile& file) {
+absl::Status write_glb(const Mesh& mesh, const std::string& name, double scale, OutputFile& file) {
   constexpr std::uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
   Layout layout;
-  std::string json = description(mesh, name, layout);
+  std::string json = description(mesh, name, scale, layout);
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::uint64_t binary_chunk = layout.bytes > 0 ? 8 + layout.bytes : 0;
   const std::uint64_t total = 12 + 8 + json.size() + binary_chunk;

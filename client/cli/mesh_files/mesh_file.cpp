@@ -2,6 +2,8 @@
 
 #include <absl/strings/match.h>
 
+#include <algorithm>
+
 #include "mesh_files/crease_normals.h"
 
 namespace isofield {
@@ -14,19 +16,36 @@ std::optional<MeshFormat> mesh_format(const std::string& path) {
   return std::nullopt;
 }
 
-absl::Status write_mesh(const Mesh& mesh, MeshFormat format, const std::string& name, OutputFile& file,
-                        CreaseShading shading) {
+namespace {
+
+absl::Status write_scaled(const Mesh& mesh, MeshFormat format, const std::string& name, OutputFile& file,
+                          CreaseShading shading, std::string unit) {
+  // A line of a header.
+  std::replace_if(
+      unit.begin(), unit.end(), [](unsigned char c) { return c < ' '; }, ' ');
   switch (format) {
-    case MeshFormat::kGlb:
-      return write_glb(shading == CreaseShading::kSharp ? split_at_creases(mesh) : mesh, name, file);
     case MeshFormat::kObj:
-      return write_obj(mesh, name, shading, file);
+      return write_obj(mesh, name, shading, unit, file);
     case MeshFormat::kPly:
-      return write_ply(mesh, file);
+      return write_ply(mesh, unit, file);
     case MeshFormat::kStl:
-      return write_stl(mesh, file);
+      return write_stl(mesh, unit, file);
+    default:
+      return absl::InternalError("unknown mesh format");
   }
-  return absl::InternalError("unknown mesh format");
+}
+
+}  // namespace
+
+absl::Status write_mesh(const Mesh& mesh, MeshFormat format, const std::string& name, OutputFile& file,
+                        CreaseShading shading, const FileUnit& unit) {
+  if (format == MeshFormat::kGlb) {
+    return write_glb(shading == CreaseShading::kSharp ? split_at_creases(mesh) : mesh, name, unit.scale, file);
+  }
+  if (unit.scale == 1) return write_scaled(mesh, format, name, file, shading, unit.name);
+  Mesh scaled = mesh;
+  for (float& x : scaled.positions) x = static_cast<float>(x * unit.scale);
+  return write_scaled(scaled, format, name, file, shading, unit.name);
 }
 
 }  // namespace isofield

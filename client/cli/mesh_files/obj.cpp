@@ -52,14 +52,16 @@ absl::Status write_vectors(const char* keyword, const std::vector<float>& number
 
 }  // namespace
 
-absl::Status write_obj(const Mesh& mesh, const std::string& name, CreaseShading shading, OutputFile& file) {
+absl::Status write_obj(const Mesh& mesh, const std::string& name, CreaseShading shading, const std::string& unit,
+                       OutputFile& file) {
   const bool is_sharp = shading == CreaseShading::kSharp && !mesh.normals.empty();
   const CreaseNormals creases =
       is_sharp ? crease_normals(mesh) : CreaseNormals{.normals = mesh.normals, .corners = mesh.triangles};
   std::string object = name;
   std::replace_if(
       object.begin(), object.end(), [](unsigned char c) { return c <= ' '; }, '_');
-  absl::Status status = file.write(absl::StrCat("# isofield\no ", object, "\n"));
+  absl::Status status = file.write(
+      absl::StrCat("# isofield\n", unit.empty() ? "" : absl::StrCat("# unit ", unit, "\n"), "o ", object, "\n"));
   TextBlock block(file);
   status.Update(write_vectors("v", mesh.positions, block));
   status.Update(write_vectors("vn", creases.normals, block));

@@ -7,11 +7,12 @@
 
 namespace isofield {
 
-absl::Status write_ply(const Mesh& mesh, OutputFile& file) {
+absl::Status write_ply(const Mesh& mesh, const std::string& unit, OutputFile& file) {
   const bool normals = !mesh.normals.empty();
   absl::Status status = file.write(
-      absl::StrCat("ply\nformat binary_little_endian 1.0\ncomment isofield\nelement vertex ", mesh.vertex_count(),
-                   "\nproperty float x\nproperty float y\nproperty float z\n",
+      absl::StrCat("ply\nformat binary_little_endian 1.0\ncomment isofield\n",
+                   unit.empty() ? "" : absl::StrCat("comment unit ", unit, "\n"), "element vertex ",
+                   mesh.vertex_count(), "\nproperty float x\nproperty float y\nproperty float z\n",
                    normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "", "element face ",
                    mesh.triangle_count(), "\nproperty list uchar uint vertex_indices\nend_header\n"));
   for (std::size_t i = 0; status.ok() && i < mesh.positions.size(); i += 3) {

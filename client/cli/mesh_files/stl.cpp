@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 
 #include "mesh_files/mesh_file.h"
 
@@ -27,12 +29,13 @@ Vector normal_of(const Vector& a, const Vector& b, const Vector& c) {
 
 }  // namespace
 
-absl::Status write_stl(const Mesh& mesh, OutputFile& file) {
+absl::Status write_stl(const Mesh& mesh, const std::string& unit, OutputFile& file) {
   if (mesh.triangle_count() > std::numeric_limits<std::uint32_t>::max()) {
     return absl::OutOfRangeError("an STL file holds at most 2^32 - 1 triangles; write .ply");
   }
   std::array<char, 80> header{};
-  std::memcpy(header.data(), "isofield", 8);
+  const std::string comment = unit.empty() ? "isofield" : "isofield UNITS=" + unit;
+  std::memcpy(header.data(), comment.data(), std::min(comment.size(), header.size()));
   const auto count = static_cast<std::uint32_t>(mesh.triangle_count());
   absl::Status status = file.write(header.data(), header.size());
   status.Update(file.write(&count, sizeof(count)));

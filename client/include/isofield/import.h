@@ -41,7 +41,8 @@ struct ImportOptions {
   std::optional<double> radius;
   // Of PDB files: keep water molecules, which are dropped otherwise.
   bool keep_water = false;
-  // Scene::unit; empty: "angstrom" for molecules, none for others (SWC does not state one).
+  // Scene::unit. Empty: "angstrom" for molecules, "um" for neurons, since SWC does not state one and micrometres are
+  // the rule of its largest archive, none for bare points. Files in voxels need theirs: "8 nm".
   std::string unit;
 };
 

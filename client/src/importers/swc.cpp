@@ -213,6 +213,8 @@ class PieceMaker {
 
 absl::Status import_swc(const std::string& text, const ImportOptions& options, Imported& imported) {
   imported.report.format = "neuron (SWC)";
+  // By the rule of NeuroMorpho's archive; the format itself states none.
+  imported.scene.set_unit("um");
   std::vector<SwcSample> samples = read_samples(text, imported.report);
   if (samples.empty()) return absl::InvalidArgumentError("no usable line \"id type x y z radius parent\"");
   if (auto status = mend_radii(samples, options, imported.report); !status.ok()) return status;
