@@ -10,10 +10,13 @@ layout(std430, binding = 5) readonly buffer Samples { float samples[]; };  // of
 layout(std430, binding = 6) writeonly buffer Cases { uint cases[]; };      // four cells a word
 layout(std430, binding = 7) writeonly buffer NearBricks { uint near_bricks[]; };  // 1: has samples near iso
 
+layout(std430, binding = 8) readonly buffer Listed { uint listed[]; };  // the bricks of the slab that are asked, or none
+
 void main() {
   uint word = gl_GlobalInvocationID.x;
   if (word >= count * (CELLS_PER_BRICK / 4u)) return;
   uint b = word / (CELLS_PER_BRICK / 4u);
+  if (is_listed()) b = listed[b];
   uint packed_cases = 0u;
   float nearest = 1e30;
   for (uint n = 0u; n < 4u; ++n) {
@@ -26,6 +29,6 @@ void main() {
     }
     packed_cases |= inside << (8u * n);
   }
-  cases[first * (CELLS_PER_BRICK / 4u) + word] = packed_cases;
+  cases[(first + b) * (CELLS_PER_BRICK / 4u) + word % (CELLS_PER_BRICK / 4u)] = packed_cases;
   if (nearest <= near) near_bricks[b] = 1u;
 }

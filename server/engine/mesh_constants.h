@@ -13,7 +13,7 @@ struct MeshConstants {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   float iso;
-  std::uint32_t flags;  // 1: capped, 2: a signed field
+  std::uint32_t flags;  // 1: capped, 2: a signed field, 4: of listed bricks
   float tolerance;
   float shift, near, value_room, slope_room, just_inside;  // engine/mesh_rounding.h
 };

@@ -155,32 +155,16 @@ class Run {
       const Slab& slab = slabs_.emplace_back(first, count, std::move(samples));
       std::vector<std::uint32_t> is_near(count);
       ISOFIELD_ASSIGN_OR_RETURN(const Buffer near_bricks, session.upload(std::span(is_near)));
-      ISOFIELD_RETURN_IF_ERROR(classify(session, slab, near_bricks));
+      constants = constants_;
+      constants.first = first;
+      constants.count = count;
+      const SampledSlab sampled{first, slab.samples, cases_};
+      ISOFIELD_RETURN_IF_ERROR(classify(session, kernels_, constants, sampled, near_bricks, near_bricks));
       ISOFIELD_RETURN_IF_ERROR(session.download(near_bricks, std::span(is_near)));
       ISOFIELD_RETURN_IF_ERROR(session.run());
-      ISOFIELD_RETURN_IF_ERROR(settle(slab, is_near, near_bricks));
+      ISOFIELD_RETURN_IF_ERROR(settle_samples(device_, kernels_, *tapes_, constants_, bricks_, sampled, is_near));
     }
     return absl::OkStatus();
-  }
-
-  absl::Status classify(Session& session, const Slab& slab, const Buffer& near_bricks) {
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshClassify));
-    Constants constants = constants_;
-    constants.first = slab.first;
-    constants.count = slab.count;
-    return session.commands().dispatch(*kernel, {{4, &bricks_}, {5, &slab.samples}, {6, &cases_}, {7, &near_bricks}},
-                                       constants, mesh_groups(std::uint64_t{slab.count} * kCells / 4));
-  }
-
-  // Once more where samples were put on one side of the surface.
-  absl::Status settle(const Slab& slab, std::span<const std::uint32_t> is_near, const Buffer& near_bricks) {
-    ISOFIELD_ASSIGN_OR_RETURN(const bool has_settled,
-                              settle_samples(device_, kernels_, *tapes_, constants_, bricks_, slab.first, is_near,
-                                             slab.samples));
-    if (!has_settled) return absl::OkStatus();
-    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-    ISOFIELD_RETURN_IF_ERROR(classify(session, slab, near_bricks));
-    return session.run();
   }
 
   absl::Status connect() {

@@ -17,14 +17,13 @@ constexpr double kRoundings = 4;
 constexpr double kValueRounding = 1e-6;
 // The slope of a positive primitive over its range: (1 - R0) |w'(r)| is at most this, at r^2 = 1/5.
 constexpr double kSteepest = 0.94;
-// What blends and sums may make of the slopes of primitives that meet in them.
-constexpr double kBlended = 2;
 // Of a cell. Less would do for most scenes; more makes slivers where a crease passes a lattice point.
 constexpr double kLeastShift = 0.001, kMostShift = 0.1;
 // The point beside a lattice point is further from it than rounding takes either, and its value tells the side.
 constexpr double kShiftPerLength = 4, kShiftPerValue = 10;
 
-double power_of_two_above(double x) { return std::exp2(std::ceil(std::log2(x))); }
+// Up to the next of four steps an octave, so that small edits of a scene change nothing.
+double stepped(double x) { return std::exp2(std::ceil(4 * std::log2(x)) / 4); }
 
 double reach_of(const blobtree::Box& box) {
   return std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x),
@@ -42,7 +41,7 @@ double least_slope_of(const blobtree::Tape& tape) {
   return slope;
 }
 
-// Bounds the change of the field over a length.
+// About the most that the field changes over a length.
 double most_slope_of(const blobtree::Tape& tape) {
   double slope = 1e-30;
   for (const blobtree::Leaf& leaf : tape.leaves) slope = std::max(slope, slope_of(leaf));
@@ -51,7 +50,7 @@ double most_slope_of(const blobtree::Tape& tape) {
     if (o.op == Operator::kLinear) converted = std::max(converted, std::abs(o.factor));
     if (o.op == Operator::kSoften) converted = std::max(converted, kSteepest / o.range);
   }
-  return kBlended * slope * converted;
+  return slope * converted;
 }
 
 // The size of the values that are rounded on the way to the root's.
@@ -71,12 +70,12 @@ MeshRounding mesh_rounding(const blobtree::Tape& tape, const blobtree::Lattice& 
   double reach = reach_of({lattice.origin, lattice.origin + size});
   for (const blobtree::Leaf& leaf : tape.leaves) reach = std::max(reach, reach_of(leaf.support));
   MeshRounding rounding;
-  rounding.length = std::min(kRoundings * kUnit * power_of_two_above(reach), kMostShift * cell / kShiftPerLength);
+  rounding.length = std::min(kRoundings * kUnit * stepped(reach), kMostShift * cell / kShiftPerLength);
   rounding.value = kValueRounding * value_of(tape, iso);
-  const double for_value = power_of_two_above(kShiftPerValue * rounding.value / least_slope_of(tape) + 1e-30);
+  const double for_value = stepped(kShiftPerValue * rounding.value / least_slope_of(tape) + 1e-30);
   rounding.shift = std::max(kShiftPerLength * rounding.length,
                             std::clamp(for_value, kLeastShift * cell, kMostShift * cell));
-  rounding.near = rounding.value + power_of_two_above(most_slope_of(tape)) * rounding.length;
+  rounding.near = rounding.value + stepped(most_slope_of(tape)) * rounding.length;
   return rounding;
 }
 

@@ -15,7 +15,7 @@ struct MeshRounding {
 
   bool operator==(const MeshRounding&) const = default;
 };
-// Powers of two of what the scene has make it, so that small edits leave it as it is.
+// In steps, so that small edits of a scene leave it as it is.
 MeshRounding mesh_rounding(const blobtree::Tape& tape, const blobtree::Lattice& lattice, double iso);
 
 }  // namespace isofield::engine

@@ -1,7 +1,7 @@
 // Puts the samples of a mesh that are on the surface on one side of it: shaders/lib/mesh_constants.glsl has the rule.
 #pragma once
 
-#include <absl/status/statusor.h>
+#include <absl/status/status.h>
 
 #include <cstdint>
 #include <span>
@@ -10,16 +10,27 @@
 #include "engine/kernel_cache.h"
 #include "engine/mesh_constants.h"
 #include "engine/mesh_rounding.h"
+#include "engine/session.h"
 #include "gpu/device.h"
 
 namespace isofield::engine {
 
 void set_rounding(const MeshRounding& rounding, MeshConstants& constants);
 
-// Of the samples of bricks from `first` on; is_near, of each: not 0 where some sample may be on the surface. False: no
-// brick has such a sample, and nothing was done.
-absl::StatusOr<bool> settle_samples(gpu::Device& device, KernelCache& kernels, BrickTapes& tapes,
-                                    MeshConstants constants, const gpu::Buffer& bricks, std::uint32_t first,
-                                    std::span<const std::uint32_t> is_near, const gpu::Buffer& samples);
+// Samples of bricks from `first` on, and the cases of all bricks' cells.
+struct SampledSlab {
+  std::uint32_t first;
+  const gpu::Buffer& samples;
+  const gpu::Buffer& cases;
+};
+
+// Records which corners of cells are inside: of constants.count bricks of the slab or, where constants.flags has 4, of
+// those that are listed. near_bricks becomes 1 for each that has samples near the surface, and else stays.
+absl::Status classify(Session& session, KernelCache& kernels, const MeshConstants& constants, const SampledSlab& slab,
+                      const gpu::Buffer& near_bricks, const gpu::Buffer& listed);
+
+// Settles the samples that are on the surface of bricks for which is_near is not 0, and classifies these anew.
+absl::Status settle_samples(gpu::Device& device, KernelCache& kernels, BrickTapes& tapes, MeshConstants constants,
+                            const gpu::Buffer& bricks, const SampledSlab& slab, std::span<const std::uint32_t> is_near);
 
 }  // namespace isofield::engine

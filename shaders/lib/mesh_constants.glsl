@@ -34,6 +34,8 @@ bool is_on_surface(float f) { return f == iso || f == just_inside; }
 bool is_capped() { return (flags & 1u) != 0u; }
 // 1, or -1 where the field is signed: what makes it greater inside.
 float inward() { return (flags & 2u) != 0u ? -1.0 : 1.0; }
+// The dispatch is about listed bricks, not about those from `first` on.
+bool is_listed() { return (flags & 4u) != 0u; }
 // Whether corner i of the lattice counts as outside because it lies on its boundary.
 bool is_cap(uvec3 i) { return is_capped() && (any(equal(i, uvec3(0u))) || any(greaterThanEqual(i, cells.xyz))); }
 // What a corner on a capped boundary is taken to have.
