@@ -39,12 +39,7 @@ Field operand(float f, uint slot) {
 Field steered(Field a, Field b, uint op, float by) {
   vec4 operation = operation_at(record);
   vec2 t = vec2(by, 1.0 + by * by);
-  if (steering == STEERING_ALPHA) {
-    // A difference turns its first operand inside out, and its gradient round.
-    bool is_turned = (code >> 16u & 3u) == FORM_DIFFERENCE;
-    t = opening_tangent(floatBitsToUint(operation.x), is_turned ? 3.14159265358979 - by : by).xy;
-    t.y = is_turned ? -t.y : t.y;
-  }
+  if (steering == STEERING_ALPHA) t = opening_tangent(floatBitsToUint(operation.x), by);
   uint blend = floatBitsToUint(operation.y);
   Blend g;
   if (is_operator(op, OPERATOR_GRADIENT)) g = gradient_blend(a.f, b.f, t.x, SMOOTH_SILHOUETTE);
@@ -109,7 +104,7 @@ void main() {
   uint row = gl_GlobalInvocationID.x;
   if (row >= count) return;
   if (is_opening != 0u) {
-    vec3 t = opening_tangent(floatBitsToUint(operation_at(record).x), arguments[row]);
+    vec2 t = opening_tangent(floatBitsToUint(operation_at(record).x), arguments[row]);
     results[2u * row] = arctangent(t.x);
     results[2u * row + 1u] = t.y / (1.0 + t.x * t.x);
     return;

@@ -109,6 +109,7 @@ void add_sets(Tape& tape, const Operation& o, const Mode& mode) {
   if (mode.bits() != 0) tape.operator_set |= kModes;
   if (o.what && o.what->by_angle) tape.operator_set |= kByAngle;
   if (o.frame) tape.operator_set |= kFramed;
+  if (o.what && !o.what->opening.samples.empty()) tape.operator_set |= kSampledOpenings;
   const bool is_positive_difference = mode.form == Form::kDifference && !mode.is_signed;
   if (o.op == Operator::kSubtract || is_positive_difference) {
     // Where the subtrahend is gone, the pruner clamps fields above 1 by subtracting 0.

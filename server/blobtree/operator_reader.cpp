@@ -81,8 +81,15 @@ operators::Opening read_opening(const v1::Opening& m, FieldReader& in) {
     }
   }
   const auto degrees = [](double radians) { return absl::StrCat(radians / kRadians); };
-  if (!(o.alpha0 < o.alpha1)) in.refuse("opening.alpha1", degrees(o.alpha1), "more than alpha0 = " + degrees(o.alpha0));
-  if (!(o.alpha1 < o.alpha2)) in.refuse("opening.alpha2", degrees(o.alpha2), "more than alpha1 = " + degrees(o.alpha1));
+  // A ramp of exactly the least length may have been rounded to less.
+  constexpr double kLeast = operators::kLeastRamp * (1 - 1e-9);
+  const std::string by = absl::StrCat("by ", operators::kLeastRamp / kRadians, " (a thousandth of a radian) or more");
+  if (!(o.alpha1 - o.alpha0 >= kLeast)) {
+    in.refuse("opening.alpha1", degrees(o.alpha1), absl::StrCat("more than alpha0 = ", degrees(o.alpha0), ", ", by));
+  }
+  if (!(o.alpha2 - o.alpha1 >= kLeast)) {
+    in.refuse("opening.alpha2", degrees(o.alpha2), absl::StrCat("more than alpha1 = ", degrees(o.alpha1), ", ", by));
+  }
   return o;
 }
 

@@ -43,7 +43,7 @@ struct Scene {
 struct SceneLimits {
   std::uint64_t max_nodes = 1'000'000;
   std::uint64_t max_primitives = 1'000'000;  // after instancing
-  std::uint64_t max_profiles = 2'000;        // different openings, silhouettes and curves: a table of 4 to 16 KiB each
+  std::uint64_t max_profiles = 2'000;        // different openings, silhouettes and curves: a table of 8 to 64 KiB each
 };
 
 // Different volumes that one scene's operators may use: each takes a binding of the kernels.

@@ -54,10 +54,11 @@ enum class Operator : std::uint32_t {
 };
 
 // Bits of operand_set and operator_set beside those of the opcodes.
-inline constexpr std::uint32_t kSignedLeaves = 1u << 31;  // operand_set
-inline constexpr std::uint32_t kModes = 1u << 31;         // operator_set: some instruction has a mode
-inline constexpr std::uint32_t kByAngle = 1u << 30;       // operator_set: some range follows the angle of gradients
-inline constexpr std::uint32_t kFramed = 1u << 29;        // operator_set: angles are measured in Operation::frame
+inline constexpr std::uint32_t kSignedLeaves = 1u << 31;     // operand_set
+inline constexpr std::uint32_t kModes = 1u << 31;            // operator_set: some instruction has a mode
+inline constexpr std::uint32_t kByAngle = 1u << 30;          // operator_set: some range follows the angle of gradients
+inline constexpr std::uint32_t kFramed = 1u << 29;           // operator_set: angles are measured in Operation::frame
+inline constexpr std::uint32_t kSampledOpenings = 1u << 28;  // operator_set: some opening is given by samples
 
 // How an instruction applies its operator; bits 16 and up of its code.
 struct Mode {

@@ -76,6 +76,13 @@ std::vector<float> device_rows(std::span<const float> arguments, std::size_t ope
 absl::Status OperatorEvaluator::evaluate(const std::shared_ptr<const operators::Operator>& op, std::size_t operands,
                                          Steering steering, std::span<const float> arguments,
                                          std::span<float> results) {
+  std::shared_ptr<const operators::Operator> steered = op;
+  if (steering == Steering::kAlpha && op->form == operators::Form::kDifference) {
+    // A difference turns its first operand inside out, and its gradient round.
+    auto turned = std::make_shared<operators::Operator>(*op);
+    turned->opening = op->opening.turned();
+    steered = std::move(turned);
+  }
   const auto k = static_cast<std::uint32_t>(operands);
   const std::uint32_t is_steered = steering != Steering::kNone ? 1 : 0;
   const Constants constants{.operands = k, .columns = k + is_steered + (op->by_angle ? 2u : 0u), .steering = steering};
@@ -84,7 +91,7 @@ absl::Status OperatorEvaluator::evaluate(const std::shared_ptr<const operators::
     rows = device_rows(arguments, operands, op->by_angle);
     arguments = rows;
   }
-  return run(device_, kernels_, volumes_, blobtree::operator_tape(op, operators::law_of(op->kind), k), constants,
+  return run(device_, kernels_, volumes_, blobtree::operator_tape(steered, operators::law_of(op->kind), k), constants,
              1 + k + is_steered, arguments, results);
 }
 

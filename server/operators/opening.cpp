@@ -42,6 +42,15 @@ double Opening::theta_min() const {
   return std::min({theta0, theta1, theta2});
 }
 
+Opening Opening::turned() const {
+  if (!samples.empty()) {
+    Opening turned{};
+    turned.samples = SampledCurve::even(0, kPi, {samples.y().rbegin(), samples.y().rend()});
+    return turned;
+  }
+  return {kPi - alpha2, kPi - alpha1, kPi - alpha0, theta2, theta1, theta0, w1, w0};
+}
+
 double picked_opening(double f1, double f2) {
   return std::min(std::atan2(f2, f1), kPi / 4);
 }

@@ -9,8 +9,11 @@
 
 namespace isofield::operators {
 
-// Radians. 0 <= alpha0 < alpha1 < alpha2 <= pi; thetas within [0, pi/4]; w within [0.05, 20]. Or, where there are any,
-// the samples of theta over [0, pi].
+// The least alpha1 - alpha0 and alpha2 - alpha1: float32 places an angle near pi within 1e-4 of such a ramp.
+inline constexpr double kLeastRamp = 1e-3;
+
+// Radians. 0 <= alpha0 < alpha1 < alpha2 <= pi, each at least kLeastRamp from the next; thetas within [0, pi/4]; w
+// within [0.05, 20]. Or, where there are any, the samples of theta over [0, pi].
 struct Opening {
   double alpha0, alpha1, alpha2;
   double theta0, theta1, theta2;
@@ -21,6 +24,8 @@ struct Opening {
   Curve theta(double alpha) const;
   // The angle where one of the gradients vanishes ([G] section 7).
   double theta_min() const;
+  // The opening theta(pi - alpha), of gradients of which one is turned round.
+  Opening turned() const;
   auto operator<=>(const Opening&) const = default;
 };
 

@@ -1,12 +1,22 @@
 #include "operators/profile_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 namespace isofield::operators {
 namespace {
+
+// The cubic through values and slopes at both ends of a cell, in an s that is `end` at the right one.
+CubicCell hermite(const Curve& left, const Curve& right, double width, double end = 1) {
+  const double rise = right.v - left.v, dl = left.d1 * width, dr = right.d1 * width;
+  return {static_cast<float>(left.v), static_cast<float>(dl / end),
+          static_cast<float>((3 * rise - 2 * dl - dr) / (end * end)),
+          static_cast<float>((dl + dr - 2 * rise) / (end * end * end))};
+}
 
 ProfileTable tabulate(int cells, double range, const std::function<Curve(double)>& function) {
   ProfileTable table(cells);
@@ -14,12 +24,41 @@ ProfileTable tabulate(int cells, double range, const std::function<Curve(double)
   Curve left = function(0);
   for (int i = 0; i < cells; ++i) {
     const Curve right = function(h * (i + 1));
-    const double rise = right.v - left.v, dl = left.d1 * h;
-    const double dr = right.d1 * h;
-    table[i] = {static_cast<float>(left.v), static_cast<float>(dl), static_cast<float>(3 * rise - 2 * dl - dr),
-                static_cast<float>(dl + dr - 2 * rise)};
+    table[i] = hermite(left, right, h);
     left = right;
   }
+  return table;
+}
+
+// The cells of one ramp of an opening: `per_unit` is by how much the place grows with alpha, negative on the left.
+void append_ramp(const Opening& opening, float origin, double per_unit, int per_octave, ProfileTable& table) {
+  const auto node = [&](double place) {
+    const Curve theta = opening.theta(origin + (place - kFirstPlace) / per_unit);
+    const double t = std::tan(theta.v);
+    return Curve{t, (1 + t * t) * theta.d1 / per_unit, 0};
+  };
+  Curve left = node(kFirstPlace);
+  for (double octave = kFirstPlace; octave < 1; octave *= 2) {
+    const double width = octave / per_octave;
+    for (int i = 0; i < per_octave; ++i) {
+      const Curve right = node(octave + width * (i + 1));
+      table.push_back(hermite(left, right, width, width));
+      left = right;
+    }
+  }
+}
+
+ProfileTable sampled_opening_table(const SampledCurve& samples) {
+  const auto cells = static_cast<int>(samples.x().size()) - 1;
+  const double step = std::numbers::pi / cells;
+  // 12 digits beside the 12 of a cell's number.
+  int exponent = 0;
+  const double digits = std::frexp(step, &exponent);
+  const double rounded = std::ldexp(std::round(std::ldexp(digits, 12)), exponent - 12);
+  ProfileTable table{{static_cast<float>(rounded), static_cast<float>(step - rounded), static_cast<float>(1 / step),
+                      static_cast<float>(-cells)}};
+  const ProfileTable cubics = tabulate(cells, std::numbers::pi, [&](double alpha) { return samples.at(alpha); });
+  table.insert(table.end(), cubics.begin(), cubics.end());
   return table;
 }
 
@@ -64,12 +103,21 @@ ProfileTable silhouette_table(const Silhouette& silhouette) {
   return table;
 }
 
+int cells_per_octave(const Opening& opening) {
+  return std::min(opening.w0, opening.w1) >= 0.1 && std::max(opening.w0, opening.w1) <= 3 ? 128 : 256;
+}
+
 ProfileTable opening_table(const Opening& opening) {
-  return tabulate(kOpeningCells, std::numbers::pi, [&](double alpha) {
-    const Curve theta = opening.theta(alpha);
-    const double t = std::tan(theta.v);
-    return Curve{t, (1 + t * t) * theta.d1, 0};
-  });
+  if (!opening.samples.empty()) return sampled_opening_table(opening.samples);
+  const int per_octave = cells_per_octave(opening);
+  const auto origin = static_cast<float>(opening.alpha1);
+  const auto left = static_cast<float>((1 - kFirstPlace) / (opening.alpha1 - opening.alpha0));
+  const auto right = static_cast<float>((1 - kFirstPlace) / (opening.alpha2 - opening.alpha1));
+  const int shift = std::numeric_limits<float>::digits - std::bit_width(static_cast<unsigned>(per_octave));
+  ProfileTable table{{origin, left, right, std::bit_cast<float>(shift)}};
+  append_ramp(opening, origin, right, per_octave, table);
+  append_ramp(opening, origin, -static_cast<double>(left), per_octave, table);
+  return table;
 }
 
 ProfileTable curve_table(const SampledCurve& curve) {

@@ -34,10 +34,11 @@ const uint OPERATOR_LINEAR = 18u;
 const uint OPERATOR_SOFTEN = 19u;
 
 // Bits of the sets beside those of the opcodes.
-const uint SIGNED_LEAVES = 1u << 31u;  // OPERAND_SET
-const uint MODES = 1u << 31u;          // OPERATOR_SET
-const uint BY_ANGLE = 1u << 30u;       // OPERATOR_SET
-const uint FRAMED = 1u << 29u;         // OPERATOR_SET
+const uint SIGNED_LEAVES = 1u << 31u;     // OPERAND_SET
+const uint MODES = 1u << 31u;             // OPERATOR_SET
+const uint BY_ANGLE = 1u << 30u;          // OPERATOR_SET
+const uint FRAMED = 1u << 29u;            // OPERATOR_SET
+const uint SAMPLED_OPENINGS = 1u << 28u;  // OPERATOR_SET
 
 // Modes of an instruction: Mode::bits().
 const uint FORM_UNION = 0u;
@@ -73,6 +74,9 @@ layout(constant_id = 6) const uint UNIFORM_SET = 0u;
 #define may_follow_angle() ((OPERATOR_SET & BY_ANGLE) != 0u)
 // Whether operators that follow an angle measure it in a frame of their own, which stands before their record.
 #define has_frames() ((OPERATOR_SET & FRAMED) != 0u)
+
+// Whether openings may be given by samples.
+#define has_sampled_openings() ((OPERATOR_SET & SAMPLED_OPENINGS) != 0u)
 
 // Comparisons that the sets decide are dropped with their branches.
 bool is_operand(uint operand, uint candidate) {

@@ -2,6 +2,7 @@
 #ifndef OPERATORS_GLSL
 #define OPERATORS_GLSL
 
+#include "angles.glsl"
 #include "classic_blends.glsl"
 #include "gradient_blend.glsl"
 #include "ranged_blends.glsl"
@@ -312,21 +313,6 @@ Field ricci(Field a, Field b, vec2 exponent) {
   return select_field(r, b, a.f <= 0.0);
 }
 
-// arccosine for x within [-1, 1] to 2e-8 (polynomial of Abramowitz and Stegun 4.4.46); the driver's own is allowed 4,096 ulp.
-float arccosine(float x) {
-  float y = abs(x);
-  float p = -0.0012624911;
-  p = p * y + 0.0066700901;
-  p = p * y - 0.0170881256;
-  p = p * y + 0.0308918810;
-  p = p * y - 0.0501743046;
-  p = p * y + 0.0889789874;
-  p = p * y - 0.2145988016;
-  p = p * y + 1.5707963050;
-  float angle = sqrt(max(1.0 - y, 0.0)) * p;
-  return x < 0.0 ? 3.14159265358979 - angle : angle;
-}
-
 // Below this square of a gradient (times the operation's length) it counts as vanishing, [G] section 7.
 const float NULL_GRADIENT = 1e-3;
 
@@ -346,11 +332,15 @@ Field blend_by_gradient(Field a, Field b, Field u, Field v, vec4 operation, uint
   float h = abs(operation.w);
   vec3 d1 = u.d * h, d2 = v.d * h;
   float n1 = dot(d1, d1), n2 = dot(d2, d2);
-  float inverse1 = inversesqrt(max(n1, 1e-12)), inverse2 = inversesqrt(max(n2, 1e-12));
-  float cosine = clamp(dot(d1, d2) * inverse1 * inverse2, -1.0, 1.0);
-  vec3 open = opening_tangent(opening, arccosine(cosine));
+  vec2 open = opening_tangent(opening, angle_between(d1, d2));
   vec2 w1 = gradient_presence(n1), w2 = gradient_presence(n2);
   float t = t_min + (open.x - t_min) * w1.x * w2.x;
+#ifdef WITH_GRADIENT
+  // Gradient of t: through the angle, and through the presence of either gradient.
+  mat2x3 t_d = angle_partials(d1, d2, n1, n2, h * w1.x * w2.x * open.y);
+  float t_presence = 2.0 * h * (open.x - t_min);
+  vec3 t_v = (t_d[0] + t_presence * w1.y * w2.x * d1) * u.j + (t_d[1] + t_presence * w1.x * w2.y * d2) * v.j;
+#endif
 
   Blend g;
   if (!is_volume) g = gradient_blend(a.f, b.f, t, blend);
@@ -361,16 +351,6 @@ Field blend_by_gradient(Field a, Field b, Field u, Field v, vec4 operation, uint
   r.f = g.g;
   r.d = g.g1 * a.d + g.g2 * b.d;
 #ifdef WITH_GRADIENT
-  // Gradient of t: through the angle, and through the presence of either gradient.
-  // Ranges that differ by 1e18 make them larger than float32, where they count no more.
-  vec3 n1_v = clamp(2.0 * h * (d1 * u.j), -MOST_FIELD, MOST_FIELD);
-  vec3 n2_v = clamp(2.0 * h * (d2 * v.j), -MOST_FIELD, MOST_FIELD);
-  vec3 cosine_v = h * inverse1 * inverse2 * (d2 * u.j + d1 * v.j) -
-                  0.5 * cosine * (inverse1 * inverse1 * n1_v + inverse2 * inverse2 * n2_v);
-  // Openings are flat at 0 and pi, where the angle has no gradient.
-  float sine2 = 1.0 - cosine * cosine;
-  vec3 angle_v = sine2 > 1e-6 ? -inversesqrt(sine2) * cosine_v : vec3(0.0);
-  vec3 t_v = (w1.x * w2.x) * open.y * angle_v + (open.x - t_min) * (w1.y * w2.x * n1_v + w1.x * w2.y * n2_v);
   r.g = g.g1 * a.g + g.g2 * b.g + g.gt * t_v;
   join_derivatives(r, a, b, g.g1, g.g2, g.g11 * a.g + g.g12 * b.g + g.g1t * t_v,
                    g.g12 * a.g + g.g22 * b.g + g.g2t * t_v);

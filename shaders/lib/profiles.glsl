@@ -4,12 +4,12 @@
 #ifndef PROFILES_GLSL
 #define PROFILES_GLSL
 
+#include "angles.glsl"
 #include "parameters.glsl"
 #include "polynomials.glsl"  // written at build time
 
 // Mirrors server/operators/profile_table.h.
 const int SILHOUETTE_CELLS = 512;
-const int OPENING_CELLS = 256;
 
 // Value, first and second derivative at a place counted in cells.
 vec3 profile(uint table, int cells, float x) {
@@ -65,11 +65,44 @@ uint silhouette_half(uint silhouette, float f1, float f2) {
   return (silhouette & 0x3fffffffu) + second;
 }
 
-// tan(theta) of an opening function at alpha within [0, pi].
-vec3 opening_tangent(uint table, float alpha) {
-  const float per_unit = float(OPENING_CELLS) / 3.14159265358979;
-  vec3 t = profile(table, OPENING_CELLS, alpha * per_unit) * vec3(1.0, per_unit, per_unit * per_unit);
-  t.x = max(t.x, 0.0);  // the cubics of the steepest openings undershoot by 4e-4
+// Where the places of an opening's ramps begin and end: server/operators/profile_table.h.
+const float FIRST_PLACE = 0.0625, LAST_PLACE = 0.99999994;
+const uint RAMP_DIGITS = 1u << 25u;  // floatBitsToUint(1.0) - floatBitsToUint(FIRST_PLACE)
+
+// How far alpha is beyond a sample, in steps.
+float beyond_sample(vec4 head, float number, float alpha) {
+  precise float beyond = (alpha - number * head.x) - number * head.y;
+  return beyond * head.z;
+}
+
+// tan(theta) of an opening function and its derivative, at alpha within [0, pi], from opening_table() of
+// server/operators/profile_table.h. The leading digits of a place are its cell's number. Where a cell starts is exact, so
+// that what lies beyond it keeps all of its digits.
+vec2 opening_tangent(uint table, float alpha) {
+  vec4 head = tables[table];
+  float from = alpha - head.x;
+  bool is_left = from < 0.0;
+  float per_unit = is_left ? -head.y : head.z;
+  float place = min(from * per_unit + FIRST_PLACE, LAST_PLACE);
+  uint digits = floatBitsToUint(place), shift = floatBitsToUint(head.w);
+  float s = place - uintBitsToFloat(digits & 0xffffffffu << shift);
+  uint cell = digits - floatBitsToUint(FIRST_PLACE) + (is_left ? RAMP_DIGITS : 0u) >> shift;
+  bool is_sampled = has_sampled_openings() && head.w < 0.0;
+  if (is_sampled) {
+    // alpha / step is rounded by up to a thousandth of a cell, over whose end the second derivative may jump.
+    float number = floor(alpha * head.z);
+    number = clamp(number + floor(beyond_sample(head, number, alpha)), 0.0, -1.0 - head.w);
+    per_unit = head.z;
+    s = beyond_sample(head, number, alpha);
+    cell = uint(number);
+  }
+  vec4 c = tables[table + 1u + cell];
+  vec2 t = vec2(c.x + s * (c.y + s * (c.z + s * c.w)), per_unit * (c.y + s * (2.0 * c.z + s * (3.0 * c.w))));
+  if (is_sampled) {
+    t.x = tangent(t.x);
+    t.y *= 1.0 + t.x * t.x;
+  }
+  t.x = max(t.x, 0.0);  // the cubics of the steepest openings undershoot by 1e-8
   return t;
 }
 

@@ -3,6 +3,7 @@
 #ifndef VOLUME_GLSL
 #define VOLUME_GLSL
 
+#include "angles.glsl"
 #include "gradient_blend.glsl"
 
 // (g, dg/df1, dg/df2, dg/dtheta) at size^3 nodes over f1, f2 in [0, 1] and theta in [0, pi/4], f1 fastest.
@@ -20,20 +21,6 @@ vec4 volume_node(uint slot, uint at) {
   IF_SLOT(2u) v = volume2[at];
   IF_SLOT(3u) v = volume3[at];
   return v;
-}
-
-// arctangent for t within [0, 1] to 1.5e-7: the driver's own is allowed 4,096 ulp. A polynomial in t^2 through Chebyshev nodes.
-float arctangent(float t) {
-  float s = 2.0 * t * t - 1.0;
-  float p = -3.56233748e-05;
-  p = p * s + 0.000122206979;
-  p = p * s - 0.00035709704;
-  p = p * s + 0.00130263291;
-  p = p * s - 0.005031653;
-  p = p * s + 0.0208544822;
-  p = p * s - 0.101876518;
-  p = p * s + 0.870419669;
-  return t * p;
 }
 
 // The interpolated node, with the slopes of the interpolation.

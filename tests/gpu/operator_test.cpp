@@ -103,10 +103,10 @@ TEST(OperatorOnDevice, ReproducesGoldenOpenings) {
 }
 
 // What [G]'s 3-D texture took megabytes for.
-TEST(OperatorOnDevice, ABlendTakesFourKilobytesOfTables) {
+TEST(OperatorOnDevice, ABlendTakesSixteenKilobytesOfTables) {
   using Kind = Silhouette::Kind;
   for (const auto& [silhouette, bytes] :
-       {std::pair{Silhouette{}, 4096u}, std::pair{Silhouette{Kind::kBulge, 0.8}, 4096u + 8208u}}) {
+       {std::pair{Silhouette{}, 16'400u}, std::pair{Silhouette{Kind::kBulge, 0.8}, 16'400u + 8208u}}) {
     const std::string kind = silhouette.kind == Kind::kBulge ? R"({"kind": "BULGE", "k": 0.8})" : "{}";
     const blobtree::ParameterBuffers parameters =
         blobtree::lay_out(test_support::compile_or_die(test_support::read_or_die(test_support::scene_of_nodes(

@@ -32,6 +32,21 @@ TEST(Opening, KappaHasItsDerivative) {
   }
 }
 
+TEST(Opening, TurnedIsTheSameSeenFromTheOtherEnd) {
+  Opening sampled{};
+  sampled.samples = SampledCurve::even(0, kPi, {0.1, 0.7, 0.2, 0.2, 0.5});
+  Opening steep = organic();
+  steep.w0 = 0.05;
+  for (const Opening& o : {contact(), organic(), steep, sampled}) {
+    const Opening turned = o.turned();
+    EXPECT_EQ(turned.theta_min(), o.theta_min());
+    for (double alpha = 0; alpha <= kPi; alpha += 0.01) {
+      EXPECT_NEAR(turned.theta(alpha).v, o.theta(kPi - alpha).v, 1e-12) << alpha;
+      EXPECT_NEAR(turned.theta(alpha).d1, -o.theta(kPi - alpha).d1, 1e-12) << alpha;
+    }
+  }
+}
+
 // A small exponent raises kappa's smallest values to visible ones: they must be right to the last bits, not absolutely.
 TEST(Opening, SmallSlopesStayContinuousAtTheMiddle) {
   Opening o = camel();

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace isofield::operators {
 namespace {
@@ -17,28 +19,8 @@ struct Errors {
   double bend = 0;  // the second derivative: of silhouettes alone
 };
 
-// Largest errors of a table (coefficients in float32, evaluated in double) at 16 points a cell.
-Errors errors_of(const std::string& name, const ProfileTable& table, double range,
-                 const std::function<Curve(double)>& exact) {
-  Errors worst;
-  const double cell = range / static_cast<double>(table.size());
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    for (int n = 0; n <= 15; ++n) {
-      const double s = (n + 0.5) / 16;
-      const auto& c = table[i];
-      const double value = c[0] + s * (c[1] + s * (c[2] + s * c[3]));
-      const double slope = (c[1] + s * (2 * c[2] + 3 * s * c[3])) / cell;
-      const Curve e = exact(cell * (static_cast<double>(i) + s));
-      worst.value = std::max(worst.value, std::abs(value - e.v));
-      worst.slope = std::max(worst.slope, std::abs(slope - e.d1));
-    }
-  }
-  std::printf("%-24s %4zu cells: value off by %.2g, slope by %.2g\n", name.c_str(), table.size(), worst.value,
-              worst.slope);
-  return worst;
-}
-
-// The same for a silhouette's graded cells; derivatives relative to 1 + their size, since some are infinite.
+// Largest errors of a table (coefficients in float32, evaluated in double); derivatives relative to 1 + their size,
+// since some are infinite.
 Errors silhouette_errors(const std::string& name, const Silhouette& silhouette) {
   const ProfileTable table = silhouette_table(silhouette);
   EXPECT_EQ(table.size(), kSilhouetteCells + 1u);
@@ -105,49 +87,113 @@ TEST(ProfileTable, GradingReachesBothEnds) {
   }
 }
 
-// What an opening's table holds.
+// What an opening's table is for.
 Curve tangent_of(const Opening& o, double alpha) {
   const Curve theta = o.theta(alpha);
   const double t = std::tan(theta.v);
   return {t, (1 + t * t) * theta.d1, 0};
 }
 
+// An opening looked up as in shaders/lib/profiles.glsl, in double.
+Curve look_up(const ProfileTable& table, double alpha) {
+  const auto cubic = [&](std::size_t cell, double s, double per_unit) -> Curve {
+    const auto& c = table[1 + cell];
+    return {c[0] + s * (c[1] + s * (c[2] + s * c[3])), per_unit * (c[1] + s * (2 * c[2] + 3 * s * c[3])), 0};
+  };
+  const auto& [first, second, third, fourth] = table[0];
+  if (fourth < 0) {
+    const double cell = std::min(std::floor(alpha * third), -fourth - 1.0);
+    const Curve theta = cubic(static_cast<std::size_t>(cell), (alpha - cell * first - cell * second) * third, third);
+    const double t = std::tan(theta.v);
+    return {t, (1 + t * t) * theta.d1, 0};
+  }
+  const bool is_left = alpha < first;
+  const double per_unit = is_left ? -second : third;
+  const double place = std::min((alpha - first) * per_unit + kFirstPlace, 1.0 - 0x1p-24);
+  const double octave = std::exp2(std::floor(std::log2(place)));
+  const int per_octave = 1 << (23 - std::bit_cast<int>(fourth));
+  const double cell = std::floor((place / octave - 1) * per_octave);
+  const double before = std::log2(octave / kFirstPlace) + (is_left ? kRampOctaves : 0);
+  const auto number = static_cast<std::size_t>(before * per_octave + cell);
+  return cubic(number, place - octave * (1 + cell / per_octave), per_unit);
+}
+
+// Largest errors at `count` angles within [low, high]: of the slope, relative to the steepest there.
+Errors opening_errors(const Opening& o, double low, double high, int count = 5000) {
+  const ProfileTable table = opening_table(o);
+  Errors worst;
+  double steepest = 0;
+  for (int i = 0; i <= count; ++i) {
+    const double alpha = low + (high - low) * i / count;
+    const Curve exact = tangent_of(o, alpha), found = look_up(table, alpha);
+    worst.value = std::max(worst.value, std::abs(found.v - exact.v));
+    worst.slope = std::max(worst.slope, std::abs(found.d1 - exact.d1));
+    steepest = std::max(steepest, std::abs(exact.d1));
+  }
+  if (steepest > 0) worst.slope /= steepest;
+  return worst;
+}
+
 TEST(ProfileTable, OpeningsAreClose) {
-  const struct {
-    const char* name;
-    Opening opening;
-    double most;
-  } cases[] = {{"camel", camel(), 2e-7}, {"organic", organic(), 1e-6}, {"contact", contact(), 2e-6}};
-  for (const auto& c : cases) {
-    const Errors e = errors_of(c.name, opening_table(c.opening), std::numbers::pi,
-                               [&](double alpha) { return tangent_of(c.opening, alpha); });
-    EXPECT_LT(e.value, c.most) << c.name;
+  const std::pair<const char*, Opening> openings[] = {
+      {"camel", camel()}, {"organic", organic()}, {"contact", contact()}};
+  for (const auto& [name, o] : openings) {
+    for (const auto& [low, high] : {std::pair{0.0, o.alpha1}, std::pair{o.alpha1, std::numbers::pi}}) {
+      const Errors e = opening_errors(o, low, high);
+      std::printf("%-24s %4zu cells: value off by %.2g, slope by %.2g\n", name, opening_table(o).size() - 1, e.value,
+                  e.slope);
+      EXPECT_LT(e.value, 1e-7) << name;
+      EXPECT_LT(e.slope, 3e-6) << name;
+    }
   }
 }
 
-TEST(ProfileTable, TheSteepestOpeningsStayWithinTheirParameters) {
-  for (const double w : {0.05, 0.3, 3.0, 20.0}) {
-    Opening o = camel();
-    o.w0 = o.w1 = w;
-    const ProfileTable table = opening_table(o);
-    errors_of("camel, w " + std::to_string(w), table, std::numbers::pi, [&](double a) { return tangent_of(o, a); });
-    for (const auto& c : table) {
-      for (double s = 0; s <= 1; s += 0.125) {
-        const double tangent = c[0] + s * (c[1] + s * (c[2] + s * c[3]));
-        EXPECT_GE(tangent, -5e-4) << w;
-        EXPECT_LE(tangent, 1 + 1e-6) << w;
+// Whatever the slopes, and however short the ramps.
+TEST(ProfileTable, SteepOpeningsAreClose) {
+  Errors worst;
+  for (const double w : {0.05, 0.099, 0.1, 0.3, 1.0, 3.0, 3.1, 8.0, 20.0}) {
+    for (const double ramp : {kLeastRamp, 0.0175, 0.5, 1.5}) {
+      for (const double alpha1 : {ramp, 1.57, std::numbers::pi - ramp}) {
+        Opening o{alpha1 - ramp, alpha1, alpha1 + ramp, std::numbers::pi / 4, 0, std::numbers::pi / 4, w, w};
+        for (const double side : {-ramp, ramp}) {
+          const Errors e = opening_errors(o, alpha1, alpha1 + 1.1 * side);
+          worst = {std::max(worst.value, e.value), std::max(worst.slope, e.slope)};
+          EXPECT_LT(e.value, 1e-7) << "w " << w << " ramp " << ramp;
+          EXPECT_LT(e.slope, 3e-6) << "w " << w << " ramp " << ramp;
+        }
       }
     }
+  }
+  std::printf("steep openings: value off by %.2g, slope by %.2g\n", worst.value, worst.slope);
+}
+
+TEST(ProfileTable, SampledOpeningsAreTheirOwnCubics) {
+  for (const int samples : {3, 4, 11, 100, 4096}) {
+    std::vector<double> theta;
+    for (int i = 0; i < samples; ++i) theta.push_back(i % 5 < 2 ? 0 : std::numbers::pi / 4);
+    Opening o{};
+    o.samples = SampledCurve::even(0, std::numbers::pi, theta);
+    const Errors e = opening_errors(o, 0, std::numbers::pi, 20'000);
+    EXPECT_LT(e.value, 1e-7) << samples;
+    EXPECT_LT(e.slope, 1e-6) << samples;
+    EXPECT_EQ(opening_table(o).size(), static_cast<std::size_t>(samples)) << samples;
   }
 }
 
 TEST(ProfileTable, CellsMeetWithValueAndSlope) {
-  for (const auto& [table, first] : {std::pair{silhouette_table({}), 1u}, std::pair{opening_table(organic()), 0u}}) {
-    for (std::size_t i = first; i + 1 < table.size(); ++i) {
-      const auto& c = table[i];
-      EXPECT_NEAR(c[0] + c[1] + c[2] + c[3], table[i + 1][0], 3e-7);
-      EXPECT_NEAR(c[1] + 2 * c[2] + 3 * c[3], table[i + 1][1], 3e-7);
-    }
+  const ProfileTable table = silhouette_table({});
+  for (std::size_t i = 1; i + 1 < table.size(); ++i) {
+    const auto& c = table[i];
+    EXPECT_NEAR(c[0] + c[1] + c[2] + c[3], table[i + 1][0], 3e-7);
+    EXPECT_NEAR(c[1] + 2 * c[2] + 3 * c[3], table[i + 1][1], 3e-7);
+  }
+  const ProfileTable opening = opening_table(organic());
+  const int per_octave = cells_per_octave(organic());
+  for (int i = 0; i + 1 < kRampOctaves * per_octave; ++i) {
+    const auto& c = opening[1 + i];
+    const double s = std::ldexp(kFirstPlace, i / per_octave) / per_octave;  // the cell's width
+    EXPECT_NEAR(c[0] + s * (c[1] + s * (c[2] + s * c[3])), opening[2 + i][0], 3e-7);
+    EXPECT_NEAR(c[1] + s * (2 * c[2] + 3 * s * c[3]), opening[2 + i][1], 3e-6);
   }
 }
 
