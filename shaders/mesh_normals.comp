@@ -3,8 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
 
-#include "interpreter.glsl"
 #include "mesh_constants.glsl"
+#define CELL_SIZE origin.w
+#include "interpreter.glsl"
 
 layout(local_size_x = INVOCATIONS) in;
 

@@ -20,6 +20,9 @@ Field apply_operator(Field acc, Field v, uint op, uint mode, uint record) {
     Angle angle = no_angle();
     if (may_follow_angle()) angle = angle_between(d1, d2);
     r = unite(a, b, op, record, angle);
+#ifdef CELL_SIZE
+    if (makes_seams(op, record)) even_seam(r, a, b, part_turned(r, a, b), SHARP_SEAM);
+#endif
   }
   IF_OPERATOR(op, OPERATOR_GRADIENT) {
     r = blend_by_gradient(a, b, d1, d2, operation_at(record), SMOOTH_SILHOUETTE, false);
@@ -52,6 +55,12 @@ Field apply_to_many(Field x[MAX_OPERANDS], uint op, uint mask, uint mode, uint r
   Field r = x[0];
   IF_OPERATOR(op, OPERATOR_BTK) r = blend_btk(x, mask, record, angle);
   IF_OPERATOR(op, OPERATOR_SUPERELLIPTIC) r = blend_superelliptic(x, mask, record, angle);
+#ifdef CELL_SIZE
+  // Ranges that follow an angle, of two operands, vanish where these are aligned.
+  if (may_follow_angle() && operation_at(record).y >= 0.0) {
+    even_seam(r, x[0], x[1], part_turned(r, x[0], x[1]), SHARP_SEAM);
+  }
+#endif
   if (has_modes()) r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
   return r;
 }

@@ -8,6 +8,9 @@
 #include "ranged_blends.glsl"
 #include "signed_blends.glsl"
 #include "volume.glsl"
+#ifdef CELL_SIZE
+#include "seams.glsl"
+#endif
 
 Field sum(Field a, Field b) {
   a.f += b.f;
@@ -21,6 +24,15 @@ Field sum(Field a, Field b) {
   return a;
 }
 
+// One of the two.
+Field sharp_union(Field a, Field b, bool take_b) {
+  Field r = select_field(a, b, take_b);
+#ifdef CELL_SIZE
+  even_seam(r, a, b, take_b ? 1.0 : 0.0, SHARP_SEAM);
+#endif
+  return r;
+}
+
 // max(0, min(a, 1 - b)).
 Field subtract(Field a, Field b) {
   b.f = 1.0 - b.f;
@@ -29,7 +41,7 @@ Field subtract(Field a, Field b) {
   b.g = -b.g;
   b.j = -b.j;
 #endif
-  Field r = select_field(a, b, b.f < a.f);
+  Field r = sharp_union(a, b, b.f < a.f);
   return select_field(r, zero_field(), r.f <= 0.0);
 }
 
@@ -355,6 +367,11 @@ Field blend_by_gradient(Field a, Field b, Field u, Field v, vec4 operation, uint
   join_derivatives(r, a, b, g.g1, g.g2, g.g11 * a.g + g.g12 * b.g + g.g1t * t_v,
                    g.g12 * a.g + g.g22 * b.g + g.g2t * t_v);
 #endif
+#ifdef CELL_SIZE
+  // A steeper field turns the gradient further.
+  float turn1 = g.g1 * inverse2, turn2 = g.g2 * inverse1;
+  even_seam(r, a, b, turn2 / max(turn1 + turn2, 1e-30), t > SHARP_OPENING ? SHARP_SEAM : NARROW_SEAM);
+#endif
   // A field of 0 bypasses the operator.
   r = select_field(r, a, b.f <= 0.0);
   return select_field(r, b, a.f <= 0.0);
@@ -364,8 +381,8 @@ Field blend_by_gradient(Field a, Field b, Field u, Field v, vec4 operation, uint
 Field unite(Field a, Field b, uint op, uint record, Angle angle) {
   Field r = b;
   IF_OPERATOR(op, OPERATOR_SUM) r = sum(a, b);
-  IF_OPERATOR(op, OPERATOR_MAX) r = select_field(a, b, b.f > a.f);
-  IF_OPERATOR(op, OPERATOR_MIN) r = select_field(a, b, b.f < a.f);
+  IF_OPERATOR(op, OPERATOR_MAX) r = sharp_union(a, b, b.f > a.f);
+  IF_OPERATOR(op, OPERATOR_MIN) r = sharp_union(a, b, b.f < a.f);
   IF_OPERATOR(op, OPERATOR_SUBTRACT) r = subtract(a, b);
   IF_OPERATOR(op, OPERATOR_SUBTRACT_FROM) r = subtract(b, a);
   IF_OPERATOR(op, OPERATOR_RICCI) r = ricci(a, b, operation_at(record).xy);
@@ -386,6 +403,14 @@ Field unite(Field a, Field b, uint op, uint record, Angle angle) {
   }
   IF_OPERATOR(op, OPERATOR_BT2) r = blend_bt2(a, b, record, angle);
   return r;
+}
+
+// Whether that is sharp on the surface alone, or becomes sharp where gradients are aligned.
+bool makes_seams(uint op, uint record) {
+  IF_OPERATOR(op, OPERATOR_CLEAN) return true;
+  IF_OPERATOR(op, OPERATOR_PASKO) return operation_at(record).x == 0.0;
+  IF_OPERATOR(op, OPERATOR_BT2) return may_follow_angle() && operation_at(record).w >= 0.0;
+  return false;
 }
 
 #endif

@@ -174,6 +174,39 @@ TEST(MeshFile, SmoothMeshesKeepTheirVertices) {
   }
 }
 
+// A strip folded along its middle, whose triangles there turn by 5 degrees more and less in turn, as on curved sides. The
+// sides' normals are exact; along the fold they are those of either side, or the mean.
+Mesh folded_strip(float degrees, int length, bool has_mean_normals) {
+  const auto half = static_cast<float>(degrees / 2 * M_PI / 180), lean = static_cast<float>(2.5 * M_PI / 180);
+  Mesh mesh;
+  const auto add = [&](float x, float y, float z, float turn) {
+    for (const float value : {x, y, z}) mesh.positions.push_back(value);
+    for (const float value : {std::sin(turn), 0.0f, std::cos(turn)}) mesh.normals.push_back(value);
+  };
+  for (int i = 0; i <= length; ++i) {
+    const auto y = static_cast<float>(i);
+    const float leaning = i % 4 < 2 ? half + lean : half - lean;
+    add(-std::cos(leaning), y, -std::sin(leaning), -half);
+    add(0, y, 0, has_mean_normals ? 0 : i % 3 == 0 ? half : -half);
+    add(std::cos(leaning), y, -std::sin(leaning), half);
+    if (i == 0) continue;
+    const auto at = static_cast<std::uint32_t>(3 * i);
+    for (const std::uint32_t a : {at - 3, at - 2}) {
+      for (const std::uint32_t corner : {a, a + 1, a + 4, a, a + 4, a + 3}) mesh.triangles.push_back(corner);
+    }
+  }
+  return mesh;
+}
+
+TEST(MeshFile, CreasesGoOnWhereTrianglesLean) {
+  const int length = 20;
+  // At either end but one edge of the crease meets a vertex.
+  EXPECT_EQ(crease_normals(folded_strip(27, length, false)).vertices.size(), length - 1u);
+  // The mean is what the server gives to sides that are to be shaded as one.
+  EXPECT_EQ(crease_normals(folded_strip(24, length, true)).vertices.size(), 0u);
+  EXPECT_EQ(crease_normals(folded_strip(18, length, false)).vertices.size(), 0u);
+}
+
 TEST(MeshFile, CreasesCanStaySmooth) {
   const Mesh mesh = cube_mesh(2);
   const TemporaryDirectory directory;

@@ -158,11 +158,11 @@ std::string opening_json(const Opening& o) {
 // Two soft spheres at points beside the line through their centres, where gradients are nearly parallel or opposed: the
 // cosine of their angle is within float32's rounding of 1 or -1.
 TEST(OpeningOnDevice, TheAngleOfGradientsIsGoodToRounding) {
-  const dvec3 centres[] = {{0, 0, 0}, {0.75, 0, 0}};
-  const Opening openings[] = {{0, 2e-2, kPi - 2e-2, 0, kPi / 4, 0, 1, 1},
-                              {0, 1e-3, kPi - 1e-3, kPi / 4, 0, kPi / 4, 0.3, 0.3},
-                              {1e-3, 5e-3, kPi - 4e-3, kPi / 4, 0, kPi / 4, 3, 3},
-                              {0.2, 0.25, kPi - 0.2, kPi / 4, 0, kPi / 4, 1, 20}};
+  const dvec3 centres[] = {{0, 0, 0}, {0.3, 0, 0}};
+  const Opening openings[] = {{0, 1e-3, 2e-3, kPi / 4, 0, kPi / 4, 0.3, 0.3},
+                              {0, 2e-2, 4e-2, 0, kPi / 4, 0, 1, 3},
+                              {kPi - 2e-3, kPi - 1e-3, kPi, kPi / 4, 0, kPi / 4, 0.3, 0.3},
+                              {kPi - 4e-2, kPi - 2e-2, kPi, 0, kPi / 4, 0, 3, 20}};
   test_support::Random random(9);
   double worst_angle = 0, most_steep = 0, worst_gradient = 0;
   for (const Opening& o : openings) {
@@ -174,7 +174,7 @@ TEST(OpeningOnDevice, TheAngleOfGradientsIsGoodToRounding) {
     for (int i = 0; i < 20'000; ++i) {
       const bool is_between = i % 2 == 0;
       const double aside = std::pow(10.0, random.number(-6, -1)), turn = random.number(0, 2 * kPi);
-      points.push_back(rounded_to_float({is_between ? random.number(0.2, 0.55) : random.number(0.9, 0.95),
+      points.push_back(rounded_to_float({is_between ? random.number(0.05, 0.25) : random.number(0.45, 0.8),
                                          aside * std::cos(turn), aside * std::sin(turn)}));
     }
     const reference::Evaluator exact(test_support::read_or_die(scene));
@@ -193,12 +193,12 @@ TEST(OpeningOnDevice, TheAngleOfGradientsIsGoodToRounding) {
       most_steep = std::max(most_steep, steep);
       ASSERT_LE(error, 1.5e-6 + 4e-7 * steep) << "alpha " << alpha << " slope " << theta.d1;
       // Beside float32's error of the rest: theta'' and dg/dtheta where the angle is off by its rounding, and the turn of
-      // the normal of two gradients that are nearly parallel; the angle changes by at most 20 a unit of length here.
+      // the normal of two gradients that are nearly parallel; the angle changes by less than 30 a unit of length here.
       constexpr double kRounding = 4e-7;
       const double bend = std::abs(o.theta(alpha + kRounding).d1 - o.theta(std::max(alpha - kRounding, 0.0)).d1);
       const double turn = std::abs(theta.d1) * kRounding;
       const double allowed = 2e-4 * std::max(1.0, length(s.gradient)) +
-                             20 * (std::abs(g.gt) * (bend + turn / std::sin(alpha)) + turn);
+                             30 * (std::abs(g.gt) * (bend + turn / std::sin(alpha)) + turn);
       const double off = length(device[i].gradient - s.gradient);
       worst_gradient = std::max(worst_gradient, off / allowed);
       ASSERT_LE(off, allowed) << "alpha " << alpha << " slope " << theta.d1;

@@ -10,13 +10,17 @@
 namespace isofield {
 namespace {
 
-constexpr float kLeastTurn = 0.90630779f;  // cosine of 25 degrees
+// Cosines of 25 degrees and of 15. Triangles lean over curved sides by some degrees, so a crease is taken to go on along
+// edges that turn by less, if the normal at one of their ends is that of a side.
+constexpr float kLeastTurn = 0.90630779f, kLeastAlong = 0.96592583f;
 // Of the two triangles at such an edge one faces at least half of that away from the normal at either end: cosine.
 constexpr float kHalfTurn = 0.97629601f;
 // Across an edge of a curved surface the normals at its ends lie midway between those of its triangles, and the normals
 // at the corners that face it turn by twice as much as the triangles. At a crease a normal is that of one side, and the
 // corners' turn by as much as the triangles; where creases are near one another they may say anything.
 constexpr float kMostOfTurn = 0.85f, kLeastOfCorners = 0.9f;
+// The server gives vertices on seams, which turn by less than a crease, the mean of both sides' normals.
+constexpr float kMeanOfTurn = 0.7f;
 // Of a unit normal, what is left without its part along the edge.
 constexpr float kLeastAcross = 0.1f;
 // Height by longest edge: thinner triangles, whose own direction says little, take that of the one at that edge.
@@ -42,24 +46,11 @@ class Creases {
     find_directions();
     parents_.resize(triangles_.size());
     std::iota(parents_.begin(), parents_.end(), 0u);
-    // Only where a crease passes, by two of a vertex's edges, can it have sides.
-    std::vector<bool> is_crease_side(opposites_.size());
-    std::vector<std::uint8_t> creases(mesh.vertex_count());
-    const auto for_edges = [&](const auto& visit) {
-      for (std::uint32_t c = 0; c < opposites_.size(); ++c) {
-        if (opposites_[c] != kNone && c < opposites_[c]) visit(c, opposites_[c]);
-      }
-    };
+    const std::vector<EdgeKind> kinds = find_creases();
     for_edges([&](std::uint32_t c, std::uint32_t d) {
-      if (!is_crease(c, d)) return;
-      is_crease_side[c] = true;
-      for (const std::uint32_t end : {c, d}) creases[triangles_[end]] = std::min(creases[triangles_[end]] + 1, 2);
-    });
-    for (std::size_t v = 0; v < creases.size(); ++v) may_split_[v] = creases[v] > 1;
-    for_edges([&](std::uint32_t c, std::uint32_t d) {
-      if (is_crease_side[c]) return;
-      if (may_split_[triangles_[c]]) join(c, next(d));
-      if (may_split_[triangles_[d]]) join(next(c), d);
+      if (kinds[c] == EdgeKind::kCrease) return;
+      if (may_split_[triangles_[c]]) join(parents_, c, next(d));
+      if (may_split_[triangles_[d]]) join(parents_, next(c), d);
     });
   }
 
@@ -72,7 +63,7 @@ class Creases {
     for (std::uint32_t c = 0; c < parents_.size(); ++c) {
       const std::uint32_t vertex = triangles_[c];
       if (!may_split_[vertex]) continue;
-      const std::uint32_t side = root(c);
+      const std::uint32_t side = root(parents_, c);
       if (side != c) {
         normals[c] = normals[side];  // a root is the first of its side
       } else if (first_sides[vertex] == kNone) {
@@ -168,26 +159,67 @@ class Creases {
     }
   }
 
-  bool is_crease(std::uint32_t c, std::uint32_t d) const {
-    const Vector &f = directions_[c / 3], &g = directions_[d / 3];
-    if (dot(f, g) > kLeastTurn) return false;
-    const float turn = angle(f, g);
-    const Vector along = normalize(position(next(c)) - position(c));
-    const auto is_between = [&](const Vector& n) {
-      const Vector across = n - along * dot(n, along);
-      return length(across) > kLeastAcross && std::max(angle(across, f), angle(across, g)) <= kMostOfTurn * turn;
-    };
-    const float corners = angle(normal(next(next(c))), normal(next(next(d))));
-    return (!is_between(normal(c)) && !is_between(normal(next(c)))) || turn >= kLeastOfCorners * corners;
+  // kMayGoOn: part of a crease if it is in a row with one.
+  enum class EdgeKind : std::uint8_t { kSmooth, kMayGoOn, kCrease };
+
+  // Visits each inner edge by the corners at which its two sides begin.
+  template <class Visit>
+  void for_edges(const Visit& visit) const {
+    for (std::uint32_t c = 0; c < opposites_.size(); ++c) {
+      if (opposites_[c] != kNone && c < opposites_[c]) visit(c, opposites_[c]);
+    }
   }
 
-  std::uint32_t root(std::uint32_t c) {
-    while (parents_[c] != c) c = parents_[c] = parents_[parents_[c]];
+  // Of edges, by the corner that is visited first. Leaves in may_split_ the vertices that have sides: those where a crease
+  // passes, by two of their edges.
+  std::vector<EdgeKind> find_creases() {
+    std::vector<EdgeKind> kinds(opposites_.size(), EdgeKind::kSmooth);
+    std::vector<std::uint32_t> creases(may_split_.size());  // around each vertex
+    std::vector<std::uint32_t> rows(may_split_.size());     // of edges that may be creases, by a vertex each
+    std::iota(rows.begin(), rows.end(), 0u);
+    const auto count = [&](std::uint32_t c, std::uint32_t d) { ++creases[triangles_[c]], ++creases[triangles_[d]]; };
+    for_edges([&](std::uint32_t c, std::uint32_t d) {
+      kinds[c] = kind_of(c, d);
+      if (kinds[c] == EdgeKind::kCrease) count(c, d);
+      if (kinds[c] != EdgeKind::kSmooth) join(rows, triangles_[c], triangles_[d]);
+    });
+    std::vector<bool> has_crease(rows.size());  // by the rows' roots
+    for (std::uint32_t v = 0; v < rows.size(); ++v) {
+      if (creases[v] > 1) has_crease[root(rows, v)] = true;
+    }
+    for_edges([&](std::uint32_t c, std::uint32_t d) {
+      if (kinds[c] != EdgeKind::kMayGoOn || !has_crease[root(rows, triangles_[c])]) return;
+      kinds[c] = EdgeKind::kCrease;
+      count(c, d);
+    });
+    for (std::size_t v = 0; v < creases.size(); ++v) may_split_[v] = creases[v] > 1;
+    return kinds;
+  }
+
+  EdgeKind kind_of(std::uint32_t c, std::uint32_t d) const {
+    const Vector &f = directions_[c / 3], &g = directions_[d / 3];
+    if (dot(f, g) > kLeastAlong) return EdgeKind::kSmooth;
+    const float turn = angle(f, g);
+    const Vector along = normalize(position(next(c)) - position(c));
+    // The angle between the normal and the further triangle, as a part of the turn.
+    const auto part_of_turn = [&](const Vector& n) {
+      const Vector across = n - along * dot(n, along);
+      return length(across) > kLeastAcross ? std::max(angle(across, f), angle(across, g)) / turn : 1;
+    };
+    const auto [least, most] = std::minmax({part_of_turn(normal(c)), part_of_turn(normal(next(c)))});
+    if (most <= kMeanOfTurn) return EdgeKind::kSmooth;
+    if (dot(f, g) > kLeastTurn) return most > kMostOfTurn ? EdgeKind::kMayGoOn : EdgeKind::kSmooth;
+    const float corners = angle(normal(next(next(c))), normal(next(next(d))));
+    return least > kMostOfTurn || turn >= kLeastOfCorners * corners ? EdgeKind::kCrease : EdgeKind::kSmooth;
+  }
+
+  static std::uint32_t root(std::vector<std::uint32_t>& parents, std::uint32_t c) {
+    while (parents[c] != c) c = parents[c] = parents[parents[c]];
     return c;
   }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    parents_[std::max(a, b)] = std::min(a, b);
+  static void join(std::vector<std::uint32_t>& parents, std::uint32_t a, std::uint32_t b) {
+    a = root(parents, a), b = root(parents, b);
+    parents[std::max(a, b)] = std::min(a, b);
   }
 
   const Mesh& mesh_;
