@@ -48,9 +48,11 @@ Bracket superelliptic_bracket(Dual x, Dual range, float t, vec2 deepest) {
   float within = is_deep ? deepest.x : value_of(u);
   precise float missing = (1.0 - value_of(u)) - value_of(q);
   missing -= missing_of_quotient(value_of(q), value_of(x), value_of(range), value_of(inverse));
+  missing = value_of(u) < 1e30 ? missing : 0.0;  // q may be infinite
   float tail = is_out ? 0.0 : is_deep ? deepest.y : missing / within;
+  precise float above = is_deep ? (value_of(u) - within) + (missing - within * tail) : 0.0;
   float p = power_of(within, tail, t - 1.0);
-  Bracket b = Bracket(chain(u, p * (within + within * tail + t * (value_of(u) - within)), t * p),
+  Bracket b = Bracket(chain(u, p * (within + (within * tail + t * above)), t * p),
                       times(chain(u, t * p, is_deep ? 0.0 : t * (t - 1.0) * p / within), inverse));
   return Bracket(select_dual(b.value, dual(0.0), is_out), select_dual(b.fall, dual(0.0), is_out));
 }

@@ -106,7 +106,7 @@ TEST(Conformance, PowersKeepTheirDigitsAtTheGreatestExponents) {
     }
     std::cout << c.name << ": values off by " << worst << ", partials by " << worst_partial << "\n";
     EXPECT_LE(worst, 1e-6);
-    EXPECT_LE(worst_partial, 3e-5);  // the bracket of a btk is 1 + (m h - x) / r, rounded
+    EXPECT_LE(worst_partial, 5e-6);  // the bracket of a btk is 1 + (m h - x) / r, rounded
   }
 }
 
