@@ -26,8 +26,9 @@ float tangent(float theta) {
   return theta * (low + (middle + high * s2) * s2);
 }
 
-// The angle between two directions of any length, within [0, pi], to 4e-7; 0 where one of them vanishes. It comes from
-// cross and dot product, since an arccosine loses half of the digits of angles near 0 and pi.
+// The angle between two directions, within [0, pi], to 4e-7 where the product of their lengths is within [1e-9, 1e9]; some
+// angle where one of them vanishes. It comes from cross and dot product, since an arccosine loses half of the digits of
+// angles near 0 and pi.
 float angle_between(vec3 a, vec3 b) {
   vec3 normal = cross(a, b);
   float x = dot(a, b), x2 = x * x, y2 = dot(normal, normal);
@@ -38,12 +39,12 @@ float angle_between(vec3 a, vec3 b) {
   return from + (is_upright != is_behind ? -angle : angle);
 }
 
-// A factor times its derivatives by a and by b, from the squares of their lengths: b turns away from a about their
-// normal. At 0 and pi, where the angle has a fold, they are 0.
-mat2x3 angle_partials(vec3 a, vec3 b, float a2, float b2, float factor) {
+// Its derivatives by two unit vectors: b turns away from a about their normal. At 0 and pi, where the angle has a fold,
+// they are 0.
+mat2x3 angle_partials(vec3 a, vec3 b) {
   vec3 normal = cross(a, b);
-  float over = factor / (sqrt(dot(normal, normal)) + 1e-19);
-  return mat2x3(over / (a2 + 1e-12) * cross(a, normal), over / (b2 + 1e-12) * cross(normal, b));
+  normal /= sqrt(dot(normal, normal)) + 1e-19;
+  return mat2x3(cross(a, normal), cross(normal, b));
 }
 
 #endif

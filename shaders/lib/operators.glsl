@@ -344,14 +344,20 @@ Field blend_by_gradient(Field a, Field b, Field u, Field v, vec4 operation, uint
   float h = abs(operation.w);
   vec3 d1 = u.d * h, d2 = v.d * h;
   float n1 = dot(d1, d1), n2 = dot(d2, d2);
-  vec2 open = opening_tangent(opening, angle_between(d1, d2));
+  // Unit vectors, but for directions that vanish: products of lengths would leave float32.
+  float inverse1 = inversesqrt(max(n1, 1e-12)), inverse2 = inversesqrt(max(n2, 1e-12));
+  vec3 u1 = inverse1 * d1, u2 = inverse2 * d2;
+  vec2 open = opening_tangent(opening, angle_between(u1, u2));
   vec2 w1 = gradient_presence(n1), w2 = gradient_presence(n2);
   float t = t_min + (open.x - t_min) * w1.x * w2.x;
 #ifdef WITH_GRADIENT
   // Gradient of t: through the angle, and through the presence of either gradient.
-  mat2x3 t_d = angle_partials(d1, d2, n1, n2, h * w1.x * w2.x * open.y);
-  float t_presence = 2.0 * h * (open.x - t_min);
-  vec3 t_v = (t_d[0] + t_presence * w1.y * w2.x * d1) * u.j + (t_d[1] + t_presence * w1.x * w2.y * d2) * v.j;
+  mat2x3 angle_d = angle_partials(u1, u2);
+  float t_angle = h * w1.x * w2.x * open.y, t_presence = 2.0 * h * (open.x - t_min);
+  vec3 t_v = (t_angle * inverse1 * angle_d[0] + t_presence * w1.y * w2.x * d1) * u.j +
+             (t_angle * inverse2 * angle_d[1] + t_presence * w1.x * w2.y * d2) * v.j;
+  // Ranges that differ by 1e18 make it larger than float32, where it counts no more.
+  t_v = clamp(t_v, -MOST_FIELD, MOST_FIELD);
 #endif
 
   Blend g;
