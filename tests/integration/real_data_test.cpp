@@ -67,7 +67,7 @@ class RealData : public testing::Test {
     EXPECT_EQ(off, 0u);
     EXPECT_EQ(not_unit, 0u);
     // On a crease the gradient is one of the two sides', along a seam the normal turns from the one's to the other's.
-    EXPECT_LE(turned, looked_at / 100);
+    EXPECT_LE(turned, looked_at / 400);
   }
   static v1::Scene imported(const std::string& file) {
     auto result = import_file(shared_file(file), {});
