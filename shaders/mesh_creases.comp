@@ -30,7 +30,7 @@ void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  // By subgroups, whole ones (mesh_vertices.comp): surplus invocations repeat the last vertex.
+  // Subgroups go on whole, as mesh_vertices.comp says: surplus invocations repeat the last vertex.
   for (uint own = starts[b].x + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
     uint v = min(own, end - 1u);
     uint vertex = vertex_list[v];

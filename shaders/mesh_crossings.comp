@@ -25,7 +25,7 @@ void main() {
   uint slot = jobs[2u * (first + gl_WorkGroupID.x) + 1u];
   Brick at = brick(b);
   uint end = starts[b + 1u].y;
-  // By subgroups, whole ones (mesh_vertices.comp): surplus invocations repeat the last crossing.
+  // Subgroups go on whole, as mesh_vertices.comp says: surplus invocations repeat the last crossing.
   for (uint own = starts[b].y + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
     uint q = min(own, end - 1u);
     uint code = quad_list[q].y;

@@ -17,8 +17,8 @@ const uint STEERING_NONE = 0u, STEERING_THETA = 1u, STEERING_ALPHA = 2u;
 layout(push_constant) uniform Constants {
   uint count;
   uint operands;
-  // Of a row of arguments: the fields; then tan(theta) or alpha, or, of an operator that follows an angle, its cosine and
-  // its sine and the ratio of the gradients' lengths. The host has those functions to the last bit, Vulkan to 2^-11.
+  // A row of arguments holds the fields; then tan(theta) or alpha, or, for an operator that follows an angle, the angle's
+  // cosine and sine and the ratio of the gradients' lengths. The host has those functions to the last bit, Vulkan to 2^-11.
   uint columns;
   uint steering;
   uint code;      // as of an instruction

@@ -14,7 +14,7 @@ namespace isofield {
 class JsonObject {
  public:
   JsonObject() = default;
-  // With the fields of a message, as below.
+  // Starts with the fields of a message, written as set() writes them.
   explicit JsonObject(const google::protobuf::Message& message);
 
   JsonObject& set(const std::string& key, double value);

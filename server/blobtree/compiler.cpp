@@ -30,7 +30,7 @@ bool is_transparent(const Node& node) {
 // was written with seven digits.
 constexpr double kSimilar = 5e-7;
 
-// What the weights of blends that are nested may multiply fields and their gradients by, together.
+// The weights of nested blends may multiply fields and their gradients by this much in all.
 constexpr double kMostGain = 1e9;
 
 // The most that an operator multiplies a field by, 1 over its weight.

@@ -61,7 +61,7 @@ Interval functional(const operators::SampledCurve& h, const Interval& a, const I
   return padded(std::min(a.lo, b.lo) - most, std::min(a.hi, b.hi) - least);
 }
 
-// Of a functional blend: the operand, 0 or 1, that is the least by more than H reaches, or -1.
+// Returns the operand of a functional blend, 0 or 1, that is the least by more than H reaches, or -1 where none is.
 int least_operand(const operators::SampledCurve& h, const Interval& a, const Interval& b) {
   // A last control point that is not 0 moves the field however far apart the operands are.
   if (h.y().back() != 0) return -1;
@@ -166,7 +166,7 @@ Interval binary_interval(Operator op, const Operation& o, const Mode& mode, Inte
   if (mode.form == Form::kIntersection) b = inside_out(b);
   Interval r = inside_out(union_interval(op, o, a, b));
   if (mode.form == Form::kIntersection && !mode.is_signed) {
-    // Of fields above 1, the least.
+    // The intersection of fields above 1 is the least of them.
     if (std::min(first.lo, second.lo) >= 1) r.lo = std::min(first.lo, second.lo);
     if (std::min(first.hi, second.hi) >= 1) r.hi = std::min(first.hi, second.hi);
   }

@@ -8,7 +8,7 @@
 namespace isofield::blobtree {
 namespace {
 
-// What stretches may differ from exact ones, as a part of them: those of a turn from 1, for example.
+// Computed stretches are within this part of the exact ones; those of a turn, for example, are not quite 1.
 constexpr double kStretchRounding = 1e-9;
 
 // Half the extents of the support of a shape centred in its own frame: of all but the segment.

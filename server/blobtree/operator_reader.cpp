@@ -19,7 +19,7 @@ constexpr double kRadians = kPi / 180;
 constexpr int kLeastSamples = 3, kMostSamples = 4096;
 constexpr int kMostControlPoints = 256;
 constexpr int kMostVolume = 128;
-// What 1 - p / (r1 r2) of a conic may be. It degenerates at p = r1 r2; where p = -1e14 r^2 it is nowhere further than
+// The limits of 1 - p / (r1 r2) of a conic. It degenerates at p = r1 r2; where p = -1e14 r^2 it is nowhere further than
 // 7e-8 r from the union.
 constexpr double kLeastTightness = 1e-9, kMostTightness = 1e14;
 

@@ -147,7 +147,7 @@ struct Operation {
   std::uint32_t operands = 0;     // kSuperelliptic, kBtk
   std::uint32_t node = 0;         // in Scene::nodes
   std::uint32_t record = 0;       // Instruction::operation: the vec4 after those of the frame
-  // Where all that the operator buffer holds of it begins.
+  // The first vec4 that the operator buffer holds of it: its frame, or its record where it has none.
   std::uint32_t begin() const { return record - frame_size(); }
   std::uint32_t frame_size() const { return frame ? 2 : 0; }
 };

@@ -13,11 +13,11 @@ constexpr double kUnit = 0x1p-24;
 // Roundings that add up on the way from a lattice point's number to its distance from a placed shape: those of the
 // spacing, the point and the anchor, and of a rotation.
 constexpr double kRoundings = 4;
-// Of fields of size 1: primitives and blends keep within it.
+// Evaluation rounds a field of size 1 by at most this: primitives and blends keep within it.
 constexpr double kValueRounding = 1e-6;
 // The slope of a positive primitive over its range: (1 - R0) |w'(r)| is at most this, at r^2 = 1/5.
 constexpr double kSteepest = 0.94;
-// Of a cell. Less would do for most scenes; more makes slivers where a crease passes a lattice point.
+// The shift as a part of a cell. Less would do for most scenes; more makes slivers where a crease passes a lattice point.
 constexpr double kLeastShift = 0.001, kMostShift = 0.1;
 // The point beside a lattice point is further from it than rounding takes either, and its value tells the side.
 constexpr double kShiftPerLength = 4, kShiftPerValue = 10;

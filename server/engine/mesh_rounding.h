@@ -15,7 +15,7 @@ struct MeshRounding {
 
   bool operator==(const MeshRounding&) const = default;
 };
-// In steps, so that small edits of a scene leave it as it is.
+// The bounds change in steps, so that small edits of a scene leave them as they are.
 MeshRounding mesh_rounding(const blobtree::Tape& tape, const blobtree::Lattice& lattice, double iso);
 
 }  // namespace isofield::engine

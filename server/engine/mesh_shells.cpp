@@ -94,7 +94,7 @@ class Nesting {
     }
   }
 
-  // Of each shell with a point: the shells around it.
+  // Returns, for each shell that has a point, the shells around it.
   std::vector<std::vector<std::uint32_t>> find() {
     absl::flat_hash_map<std::pair<std::uint32_t, std::uint32_t>, int> windings;
     for (std::size_t t = 0; t < mesh_.triangles.size(); t += 3) {
@@ -155,7 +155,7 @@ class Nesting {
   absl::flat_hash_map<std::uint32_t, std::vector<std::uint32_t>> grid_;  // shells by the place of their points
 };
 
-// Of each shell: whether it stays.
+// Tells for each shell whether it stays.
 std::vector<char> choose(const Mesh& mesh, std::span<const std::uint32_t> shell_of, std::span<const Shell> shells,
                          const ShellFilter& filter) {
   const auto largest =

@@ -12,7 +12,7 @@ namespace isofield::engine {
 
 struct ShellCounts {
   std::uint64_t bodies = 0, voids = 0;  // shells that enclose more than nothing, and less
-  // Those of them that are slivers, and a vertex of the largest.
+  // How many of them are slivers, and a vertex of the largest sliver.
   std::uint64_t sliver_bodies = 0, sliver_voids = 0;
   std::array<float, 3> sliver{};
 };
@@ -24,7 +24,7 @@ inline constexpr double kSliverCells = 0.5;
 // `parts` are all of a mesh, in order of place.
 ShellCounts count_shells(const std::vector<std::shared_ptr<const MeshCells>>& parts, double cell_size);
 
-// Which shells of a mesh stay.
+// Says which shells of a mesh stay.
 struct ShellFilter {
   bool largest_body = false;  // the body that encloses most, alone, with its voids
   bool fill_voids = false;    // neither voids nor the bodies that float inside of them

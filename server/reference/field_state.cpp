@@ -50,7 +50,7 @@ DualVec3 in_frame(const OperatorUse& use, const DualVec3& v) {
           v.z * Dual(l[5])};
 }
 
-// As on the device: where an operator of signed fields leaves float32, the field is constant.
+// Where an operator of signed fields would leave float32 the field is constant, as it is on the device.
 FieldState bounded(const FieldState& a) {
   const auto largest = [](const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
   constexpr double kMost = operators::kMostField;

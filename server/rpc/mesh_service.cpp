@@ -60,7 +60,7 @@ engine::MeshCallbacks callbacks_of(grpc::ServerContext& context, grpc::ServerWri
 // The part of the progress that meshing makes, where the mesh is simplified after that.
 constexpr double kMeshingPart = 0.4;
 
-// What is asked of a mesh once it is whole.
+// The parts of a request that need the whole mesh.
 struct Refinement {
   engine::ShellFilter shells;
   std::optional<double> simplification_error;

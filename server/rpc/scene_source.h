@@ -19,7 +19,7 @@ struct LeasedScene {
   std::shared_ptr<const v1::Scene> message;
 };
 
-// As answers name a node of a scene: its name, or "#place" of one without.
+// Returns how answers name a node of a scene: its name, or "#place" where it has none.
 std::string node_name(const v1::Scene& scene, std::uint32_t node);
 
 struct FoundScene {

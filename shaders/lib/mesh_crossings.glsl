@@ -6,8 +6,8 @@
 
 layout(std430, binding = 6) readonly buffer Cells { uint cells_in[]; };
 layout(std430, binding = 8) readonly buffer Starts { uvec2 starts[]; };
-// Of bricks that know theirs. Along the unit outward normal, of length 1 + (place along the edge, within [0, 1]), and
-// longer by 2 where the inner end of the edge is on the surface.
+// The crossings of bricks that know theirs: vectors along the unit outward normal, of length 1 + (place along the edge,
+// within [0, 1]), and longer by 2 where the inner end of the edge is on the surface.
 layout(std430, binding = 10) readonly buffer Crossings { float crossings[]; };
 
 struct Crossing {

@@ -411,7 +411,7 @@ Field unite(Field a, Field b, uint op, uint record, Angle angle) {
   return r;
 }
 
-// Whether that is sharp on the surface alone, or becomes sharp where gradients are aligned.
+// Whether the operator's union is sharp on the surface alone, or becomes sharp where gradients are aligned.
 bool makes_seams(uint op, uint record) {
   IF_OPERATOR(op, OPERATOR_CLEAN) return true;
   IF_OPERATOR(op, OPERATOR_PASKO) return operation_at(record).x == 0.0;

@@ -75,7 +75,7 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
       is_blend = is_blend || is_active;
       // The least operand's bracket is 1 at the start, whatever the rounding says.
       t = i == least && step == 0 ? 1.0 : t;
-      // As exact as a step needs: the last step is the one in duals.
+      // The driver's powers are exact enough for a step; the last step is the one in duals.
       float q = t > 0.0 ? exp2((terms[i].power - 1.0) * log2(t)) : 0.0;
       excess += q * max(t, 0.0);
       slope += terms[i].power * q * m * inverse_r;

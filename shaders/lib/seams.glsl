@@ -2,15 +2,15 @@
 // turn by less than pictures show as a crease. It is an accident of the lattice on which side of such a seam a vertex
 // lies, so the gradient of that side alone would shade the seam as a ragged line.
 //
-// For kernels that take a mesh's normals: they define CELL_SIZE.
+// Kernels that take a mesh's normals include this, and define CELL_SIZE.
 #ifndef SEAMS_GLSL
 #define SEAMS_GLSL
 
 #include "field.glsl"
 
-// How far from a seam normals turn, in cells: as far as triangles reach, since normals are linear over these. Where no
-// steering direction's Jacobian tells how the sides bend, less, so that surfaces that touch keep theirs; what may crease
-// has its vertices on the seam.
+// Normals turn within this distance of a seam, in cells: triangles reach as far, and normals are linear over these. It is
+// shorter where no steering direction's Jacobian tells how the sides bend, so that surfaces that touch keep their normals;
+// surfaces that may crease have their vertices on the seam.
 #define SEAM_REACH (is_steered() ? 1.0 : 0.25)
 // The turns up to which sides are shaded as one surface, as squares of chords: of sharp unions 25 degrees, from where
 // client/cli/mesh_files cuts creases open; of blends that are narrow for the cells alone 40, from where camel's are wide.
@@ -27,7 +27,7 @@ const float SHARP_OPENING = 0.9656888;
 // sqrt(y'^2 - 2 y'' y), 0 where they touch, and the distance from it 2 y over the sum of both slopes.
 void even_seam(inout Field r, Field a, Field b, float turned, float most) {
 #ifdef WITH_GRADIENT
-  // For each cell, since in large units squares of gradients underflow.
+  // Gradients are taken a cell, since in large units their squares underflow.
   vec3 g1 = CELL_SIZE * field_gradient(a), g2 = CELL_SIZE * field_gradient(b);
   float n1 = dot(g1, g1), n2 = dot(g2, g2);
   float inverse1 = inversesqrt(max(n1, 1e-30)), inverse2 = inversesqrt(max(n2, 1e-30));
@@ -45,7 +45,8 @@ void even_seam(inout Field r, Field a, Field b, float turned, float most) {
   float distance = 2.0 * y * inverse_slope / (1.0 + turn);
   float even = min(0.5 * turn, 0.5) * (1.0 - distance / SEAM_REACH);
   bool is_seam = even > min(turned, 1.0 - turned) && turn2 < most && min(n1, n2) > 1e-24;
-  // As steep as its side. What r has beside the two, as where an opening follows their angle, stays.
+  // The gradient stays as steep as that of its side, and keeps what r has beside the two, as where an opening follows their
+  // angle.
   float rest = (is_second ? 1.0 - even : even) - turned;
   vec3 step = rest / (CELL_SIZE * (is_second ? inverse2 : inverse1)) * across;
   // Steering directions stay as they are: they decide the shape.

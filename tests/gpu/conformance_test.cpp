@@ -453,7 +453,7 @@ void expect_golden(const std::string& file, std::size_t operands,
   EXPECT_LE(worst, 1e-5);
 }
 
-// From next to the straight cut to next to the union.
+// The conics go from next to the straight cut to next to the union.
 TEST(Conformance, ConicsOfAnyTightnessAreTheSameOnTheDevice) {
   test_support::Random random(19);
   for (const double below : {1e-9, 1e-4, 1.0, 11.0, 1e3, 1e5, 1e8, 1e11, 1e14}) {  // 1 - p / (r1 r2)

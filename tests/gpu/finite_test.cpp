@@ -298,7 +298,7 @@ TEST(Finite, ScenesAreAtTheEndsOfTheirParametersAndPoints) {
     std::size_t bad = 0;
     ++sets;
     for (int s = 0; s < kScenes; ++s) {
-      // What is refused is drawn again.
+      // Scenes that are refused are drawn again.
       for (int attempt = 0; attempt < 100; ++attempt) {
         const std::string text = scene_text(c, shapes, extreme);
         const v1::Scene message = test_support::scene_of_nodes(text);

@@ -71,7 +71,7 @@ const Union kUnions[] = {
     {"bt2", R"("bt2": {"children": ["a", "b"], "r1": 0.1, "r2": 0.1, "eliminate_bulge": true})", kSigned, 0, 0.15},
 };
 
-// What is known of a vertex beside the seam.
+// The facts of a vertex beside the seam.
 struct Beside {
   double place;    // from the plane of the seam, in cells: negative on the first tube
   double turn;     // between the tubes' normals there, in degrees; 0 where the tubes touch, on the outer side

@@ -304,7 +304,7 @@ def check_fields(channel):
                                      for e in np.eye(3)], axis=1)
                 # Deep inside a super-elliptic blend is a high power, and nested it multiplies the rounding below.
                 off = np.where(np.abs(value) > 4, 0, np.abs(result[:, 0] - value))
-                # Of compact fields, 2e-6 up to a condition number of 10; else what the rounding of the point makes besides.
+                # Compact fields are within 2e-6 up to a condition number of 10; else the rounding of the point counts, too.
                 slope = np.linalg.norm(result[:, 1:], axis=1)
                 rounding = slope * np.finfo("<f4").eps * np.linalg.norm(p, axis=1) * condition
                 allowed = 2e-6 * np.maximum(np.abs(value), 1) + (0 if kind in OPENINGS and condition <= 10 else rounding)

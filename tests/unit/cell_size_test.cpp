@@ -127,7 +127,7 @@ TEST(CellSize, ARefusalCostsNextToNothing) {
       EXPECT_TRUE(absl::StrContains(refused.status.message(),
                                     cell < least_cell_size(tape, request) ? "along an axis" : "in all"))
           << refused.status;
-      // What it says fits, and a cell of half the size does not.
+      // The size that it states fits, and half of it does not.
       request.cell_size = last_number(refused.status);
       EXPECT_TRUE(refuse(tape, request).status.ok()) << refused.status;
       request.cell_size /= 2;

@@ -164,7 +164,7 @@ TEST(Compiler, NestedWeightsThatLeaveFloat32AreRefused) {
   EXPECT_NE(text.find("nodes[4]: its weights and those of blends below divide a field by 1e-12"), std::string::npos)
       << text;
   EXPECT_NE(text.find("at least 1e-09"), std::string::npos) << text;
-  // What is made positive is at most 1.
+  // A field that is made positive is at most 1.
   nodes += R"(, {"soften": {"child": "#3", "range": 1}}, {"harden": {"child": "#5"}})";
   nodes += R"(, {"bt2": {"r1": 1, "r2": 1, "m1": 1e-3, "children": ["#6", "#0"]}})";
   EXPECT_TRUE(compile(test_support::read_or_die(test_support::scene_of_nodes(nodes))).ok());

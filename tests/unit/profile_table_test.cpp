@@ -87,7 +87,7 @@ TEST(ProfileTable, GradingReachesBothEnds) {
   }
 }
 
-// What an opening's table is for.
+// tan(theta) of an opening at alpha, which is what its table holds, with its derivative.
 Curve tangent_of(const Opening& o, double alpha) {
   const Curve theta = o.theta(alpha);
   const double t = std::tan(theta.v);

@@ -205,7 +205,7 @@ TEST(Reference, NaryOperatorsFoldInOrder) {
 TEST(Reference, IntersectionsOfFieldsAboveOneAreTheLeast) {
   for (const std::string kind : {"clean", "gradient", "barthe", "bernhardt"}) {
     SCOPED_TRACE(kind);
-    // Of 2 w, 3 w and 2.5 w of the same sphere.
+    // The operands are 2 w, 3 w and 2.5 w of the same sphere.
     const std::string sums = R"({"sphere": {"radius": 0.5, "range": 0.8}}, {"sum": {"children": ["#0", "#0"]}},
       {"sum": {"children": ["#0", "#0", "#0"]}}, {"sphere": {"center": [0.1, 0, 0], "radius": 0.5, "range": 0.8}},
       {"sum": {"children": ["#0", "#0", "#3"]}}, )";

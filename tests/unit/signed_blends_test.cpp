@@ -37,7 +37,7 @@ TEST(FunctionalBlend, IsSymmetricAndHasItsPartials) {
     const double slope1 = (functional_blend(x1 + step, x2, h).g - functional_blend(x1 - step, x2, h).g) / (2 * step);
     EXPECT_NEAR(b.g1, slope1, 2e-5);
   }
-  // Where the fields are equal, one side's.
+  // Where the fields are equal the partials are one side's.
   const Binary<double> tie = functional_blend(0.3, 0.3, h);
   EXPECT_EQ(std::max(tie.g1, tie.g2), 1);
   EXPECT_EQ(std::min(tie.g1, tie.g2), 0);

@@ -7,10 +7,10 @@
 
 namespace isofield {
 
-// How the cells of a mesh were asked for, as hints name it.
+// The way in which a command asked for the cells of a mesh; hints name the option.
 enum class CellsBy { kServer, kCell, kResolution };
 
-// What is doubtful about a mesh: cells that are too coarse, an empty surface. A sentence each.
+// Says what is doubtful about a mesh, such as cells that are too coarse or an empty surface, in a sentence each.
 std::vector<std::string> mesh_warnings(const v1::MeshSummary& summary, CellsBy cells_by);
 
 // Such as "2 bodies, 1 void, " or "1 body (2 bodies left out), "; empty where the server did not count.

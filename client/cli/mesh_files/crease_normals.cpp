@@ -170,8 +170,8 @@ class Creases {
     }
   }
 
-  // Of edges, by the corner that is visited first. Leaves in may_split_ the vertices that have sides: those where a crease
-  // passes, by two of their edges.
+  // Returns the kinds of edges, each at the corner that is visited first. It leaves in may_split_ the vertices that have
+  // sides: those that a crease passes by two of their edges.
   std::vector<EdgeKind> find_creases() {
     std::vector<EdgeKind> kinds(opposites_.size(), EdgeKind::kSmooth);
     std::vector<std::uint32_t> creases(may_split_.size());  // around each vertex

@@ -78,7 +78,7 @@ class Layout {
   int count_ = 0;
 };
 
-// Of the node; nothing for 1, which is the format's default.
+// Returns the node's scale as JSON, and nothing for 1, which is the format's default.
 std::string scale_property(double scale) {
   if (scale == 1) return "";
   char digits[32];
