@@ -293,6 +293,7 @@ TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
     const FieldState e = exact(op, {x1, x2});
     EXPECT_NEAR(results[3 * i], e.field.v, 3e-7) << x1 << ", " << x2;
     if (std::abs(std::abs(x1 - x2) - 0.25f) < 1e-6f) continue;  // the slope turns within an ulp
+    if (x1 != x2 && std::abs(x1 - x2) < 1e-37f) continue;       // a driver may take denormals for 0, where either side will do
     EXPECT_NEAR(results[3 * i + 1], e.field.d.x, 1e-5) << x1 << ", " << x2;
     EXPECT_NEAR(results[3 * i + 2], e.field.d.y, 1e-5) << x1 << ", " << x2;
   }

@@ -52,7 +52,7 @@ TEST_F(Mesh, OfABallIsTheBall) {
 }
 
 TEST_F(Mesh, OfTheSameRequestIsTheSameBytes) {
-  const v1::Scene scene = test_support::random_scene(13, {.nodes = 80});
+  const v1::Scene scene = test_support::random_scene(5, {.nodes = 80});
   const v1::MeshRequest request = mesh_request(inlined(scene), 0.04);
   const ReceivedMesh first = peer_.mesh(request), second = peer_.mesh(request);
   expect_sound(first);
