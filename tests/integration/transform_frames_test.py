@@ -177,7 +177,7 @@ def softened(d, direction, reach):
     return (1 - r * r) ** 3, slope[:, None] * direction
 
 
-def primitive(nodes, point_of, center, radius, reach, message):
+def primitive(nodes, point_of, radius, reach, message):
     nodes.append(message)
 
     def evaluate(p):
@@ -195,7 +195,7 @@ def sphere(nodes, random, is_signed):
     center, radius = random.uniform(-0.6, 0.6, 3), random.uniform(0.3, 0.6)
     reach = None if is_signed else random.uniform(0.4, 1.0)
     message = {"center": center.tolist(), "radius": radius, **({"law": "SIGNED"} if is_signed else {"range": reach})}
-    return primitive(nodes, lambda p: center, center, radius, reach, {"sphere": message})
+    return primitive(nodes, lambda p: center, radius, reach, {"sphere": message})
 
 
 def segment(nodes, random, is_signed):
@@ -208,7 +208,7 @@ def segment(nodes, random, is_signed):
         t = np.clip((p - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
         return a + t[:, None] * (b - a)
 
-    return primitive(nodes, nearest, a, radius, reach, {"segment": message})
+    return primitive(nodes, nearest, radius, reach, {"segment": message})
 
 
 def placed(nodes, child, matrix, offset):
