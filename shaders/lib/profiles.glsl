@@ -65,7 +65,7 @@ uint silhouette_half(uint silhouette, float f1, float f2) {
   return (silhouette & 0x3fffffffu) + second;
 }
 
-// Where the places of an opening's ramps begin and end: server/operators/profile_table.h.
+// The places of an opening's ramps begin and end here, as server/operators/profile_table.h says.
 const float FIRST_PLACE = 0.0625, LAST_PLACE = 0.99999994;
 const uint RAMP_DIGITS = 1u << 25u;  // floatBitsToUint(1.0) - floatBitsToUint(FIRST_PLACE)
 

@@ -277,7 +277,7 @@ TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
   }
 }
 
-// Where one piece of the curve ends and the next begins, and before the first and beyond the last.
+// The rows lie where one piece of the curve ends and the next begins, before the first and beyond the last.
 TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
   Operator op = of_kind(Kind::kFunctional);
   op.curve = operators::SampledCurve({0.125, 0.25, 0.2500001, 0.5, 1}, {0.5, 0.4, 0.3999999, 0.2, 0.0625});

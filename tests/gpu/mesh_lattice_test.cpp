@@ -156,7 +156,7 @@ TEST(MeshLattice, ShearedBoxesHaveAllTheirCorners) {
   std::cout << "the furthest corner is " << worst << " cells off\n";
 }
 
-// Which sides of a box, given from its own frame, cross edges of the cell of the lattice that holds a corner of it.
+// Tells which sides of a box, given from its own frame, cross edges of the cell of the lattice that holds a corner of it.
 std::size_t sides_seen(const dvec3& corner, const dvec3& half, const Affine& map, double cell) {
   const Affine inverse = *map.inverse();
   const auto depths = [&](const dvec3& p) {
