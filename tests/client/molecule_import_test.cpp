@@ -51,7 +51,7 @@ TEST(PdbImport, LeavesOutWaterOtherModelsAndAlternates) {
   EXPECT_TRUE(absl::StrContains(imported->report.text(), "2 x atom dropped")) << imported->report.text();
   EXPECT_TRUE(absl::StrContains(imported->report.text(), "1 x atom left out: water"));
   ImportOptions options;
-  options.keep_water = true;
+  options.keep_waters = true;
   EXPECT_EQ(import_as(ImportFormat::kPdb, text, options)->report.pieces, 2u);
 }
 
@@ -92,7 +92,7 @@ TEST(XyzImport, DamagedMolecules) {
 
 TEST(XyzImport, BarePointsAreSoftObjects) {
   ImportOptions options;
-  auto imported = import_as(ImportFormat::kXyz, "# points\n0 0 0\n\n1, 2, 3\nnan 0 0\n1 2\n", options);
+  auto imported = import_as(ImportFormat::kPoints, "# points\n0 0 0\n\n1, 2, 3\nnan 0 0\n1 2\n", options);
   ASSERT_TRUE(imported.ok()) << imported.status();
   EXPECT_EQ(imported->report.pieces, 2u);
   EXPECT_EQ(imported->report.findings[0].count, 2u);
@@ -112,7 +112,7 @@ TEST(PdbImport, HivCapsid) {
   EXPECT_EQ(imported->report.pieces, 556u);
   EXPECT_FALSE(imported->report.damaged());
   ImportOptions options;
-  options.keep_water = true;
+  options.keep_waters = true;
   EXPECT_EQ(import_file(path, options)->report.pieces, 644u);
 }
 

@@ -103,11 +103,11 @@ TEST(SwcImport, MendsRadii) {
   EXPECT_EQ(count_of(report, "radius not > 0"), 3u);
   EXPECT_EQ(scene.nodes(0).segment().radius_a(), 2);
   ImportOptions options;
-  options.radius = 0.5;
+  options.min_radius = 0.5;
   EXPECT_EQ(import_swc_text(text, options).scene.nodes(0).segment().radius_a(), 0.5);
   const auto none = import_text("1 0 0 0 0 0 -1\n", ImportFormat::kSwc, {}, "test.swc");
   EXPECT_EQ(none.status().code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_TRUE(absl::StrContains(none.status().message(), "--radius")) << none.status();
+  EXPECT_TRUE(absl::StrContains(none.status().message(), "--min-radius")) << none.status();
 }
 
 TEST(SwcImport, CutsCyclesOnce) {

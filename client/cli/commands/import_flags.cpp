@@ -20,12 +20,39 @@ void ImportFlags::add_to(CLI::App& command) {
   command.add_option("--range", options.range, "Range of every piece, in model units")
       ->check(CLI::PositiveNumber)
       ->group(kGroup);
-  command
-      .add_option("--radius", options.radius,
-                  "SWC: radius of samples without one (default: the file's smallest). Bare points: R (default: 0.5)")
+  command.add_option("--radius", options.radius, "Bare points: R of the soft objects (default: 0.5)")
       ->check(CLI::PositiveNumber)
       ->group(kGroup);
-  command.add_flag("--keep-water", options.keep_water, "PDB: keep water molecules")->group(kGroup);
+  command
+      .add_option("--radius-column", options.radius_column,
+                  "Bare points: the column that holds each point's own R, by its name in the header or its number from 1")
+      ->group(kGroup);
+  command
+      .add_option("--min-radius", options.min_radius,
+                  "SWC: least radius of a sample (default: samples without a radius have their parent's)")
+      ->check(CLI::PositiveNumber)
+      ->group(kGroup);
+  command.add_flag("--apply-scale", options.apply_scale, "SWC: multiply lengths by the file's \"# SCALE x y z\"")
+      ->group(kGroup);
+  command
+      .add_option("--model,--frame", options.frame,
+                  "Molecules: which model (PDB, mmCIF) or frame (XYZ) is taken, from 1 (default: the first)")
+      ->check(CLI::PositiveNumber)
+      ->group(kGroup);
+  command.add_option("--chain", options.chains, "PDB, mmCIF: only these chains, such as A,B")
+      ->delimiter(',')
+      ->group(kGroup);
+  command
+      .add_option("--altloc", options.altloc,
+                  "PDB, mmCIF: the alternate location to take (default: of each residue that of the highest occupancy)")
+      ->group(kGroup);
+  command
+      .add_option("--assembly", options.assembly,
+                  "PDB, mmCIF: the biological assembly to make, such as 1 (default: the atoms as they stand)")
+      ->group(kGroup);
+  command.add_flag("--hydrogens,!--no-hydrogens", options.keep_hydrogens, "PDB, mmCIF: keep hydrogen (default), or not")
+      ->group(kGroup);
+  command.add_flag("--waters", options.keep_waters, "PDB, mmCIF: keep water molecules")->group(kGroup);
   command
       .add_option("--unit", options.unit,
                   "Unit of length of the file, to note in the scene, such as \"nm\" or \"8 nm\" (default: neurons um, "

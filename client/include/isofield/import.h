@@ -10,11 +10,11 @@
 
 namespace isofield {
 
-// Scenes from the files of other fields: neurons (SWC), molecules (PDB, XYZ) and bare points.
+// Scenes from the files of other fields: neurons (SWC), molecules (PDB, mmCIF, XYZ) and bare points.
 //
 // Damage does not stop an import. What cannot be used is dropped or mended, and the report says what, where and why.
 
-enum class ImportFormat { kSwc, kPdb, kXyz };
+enum class ImportFormat { kSwc, kPdb, kMmcif, kXyz, kPoints };
 
 // How the pieces are joined; all by one n-ary operator node, named "model", over the pieces in the file's order.
 enum class ImportOperator {
@@ -36,11 +36,27 @@ struct ImportOptions {
   // have the range that belongs to their R unless `range` is stated.
   std::optional<double> range_factor;
   std::optional<double> range;
-  // > 0. SWC: the radius of a sample that has none; without it, the smallest positive one of the file.
-  // Bare points: R of the soft objects, 0.5 without it. Molecules do not use it.
+  // Bare points: R of the soft objects, > 0; 0.5 without it.
   std::optional<double> radius;
-  // Of PDB files: keep water molecules, which are dropped otherwise.
-  bool keep_water = false;
+  // Bare points: the column that holds each point's own R, by its name in the header or its number from 1.
+  std::string radius_column;
+  // SWC: the least radius of a sample, > 0. A sample that is thinner, or has no usable radius, gets this one; without
+  // it, the latter gets its parent's.
+  std::optional<double> min_radius;
+  // SWC: multiply coordinates and radii by the file's "# SCALE x y z".
+  bool apply_scale = false;
+  // Molecules: which frame of an XYZ file, or which model of a PDB or mmCIF file, is taken; from 1, by its place.
+  std::optional<int> frame;
+  // PDB and mmCIF: only these chains; empty: all.
+  std::vector<std::string> chains;
+  // PDB and mmCIF: the alternate location that is taken, such as "A". Empty: of each residue the one of the highest
+  // occupancy.
+  std::string altloc;
+  // PDB and mmCIF: the biological assembly that is made, by its name in the file. Empty: the atoms as they stand.
+  std::string assembly;
+  // PDB and mmCIF: hydrogen and its isotopes, water.
+  bool keep_hydrogens = true;
+  bool keep_waters = false;
   // Scene::unit. Empty: "angstrom" for molecules, "um" for neurons, since SWC does not state one and micrometres are
   // the rule of its largest archive, none for bare points. Files in voxels need theirs: "8 nm".
   std::string unit;

@@ -12,6 +12,8 @@ namespace isofield {
 // INVALID_ARGUMENT: the text cannot be of this format, or lacks something that no default can stand for.
 absl::Status import_swc(const std::string& text, const ImportOptions& options, Imported& imported);
 absl::Status import_pdb(const std::string& text, const ImportOptions& options, Imported& imported);
+absl::Status import_mmcif(const std::string& text, const ImportOptions& options, Imported& imported);
 absl::Status import_xyz(const std::string& text, const ImportOptions& options, Imported& imported);
+absl::Status import_points(const std::string& text, const ImportOptions& options, Imported& imported);
 
 }  // namespace isofield

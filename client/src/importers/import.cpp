@@ -17,7 +17,7 @@ std::optional<ImportFormat> import_format(const std::string& path) {
                                                                                 {".pdb", ImportFormat::kPdb},
                                                                                 {".ent", ImportFormat::kPdb},
                                                                                 {".xyz", ImportFormat::kXyz},
-                                                                                {".txt", ImportFormat::kXyz}}};
+                                                                                {".txt", ImportFormat::kPoints}}};
   for (const auto& [extension, format] : kExtensions) {
     if (absl::EndsWithIgnoreCase(path, extension)) return format;
   }
@@ -49,8 +49,14 @@ absl::StatusOr<Imported> import_text(const std::string& text, ImportFormat forma
     case ImportFormat::kPdb:
       status = import_pdb(text, options, imported);
       break;
+    case ImportFormat::kMmcif:
+      status = import_mmcif(text, options, imported);
+      break;
     case ImportFormat::kXyz:
       status = import_xyz(text, options, imported);
+      break;
+    case ImportFormat::kPoints:
+      status = import_points(text, options, imported);
       break;
   }
   if (status.ok() && imported.scene.nodes_size() == 0) {

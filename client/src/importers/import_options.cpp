@@ -28,6 +28,11 @@ absl::Status check(const ImportOptions& options) {
   if (options.range_factor) status.Update(check_positive("range_factor", *options.range_factor));
   if (options.range) status.Update(check_positive("range", *options.range));
   if (options.radius) status.Update(check_positive("radius", *options.radius));
+  if (options.min_radius) status.Update(check_positive("min_radius", *options.min_radius));
+  if (options.frame && *options.frame < 1) {
+    status.Update(absl::InvalidArgumentError(
+        absl::StrCat("import option frame: ", *options.frame, "; expected a place in the file, from 1")));
+  }
   return status;
 }
 

@@ -73,7 +73,7 @@ absl::Status import_pdb(const std::string& text, const ImportOptions& options, I
       note(report, "atom left out: not of the first model", lines.number(), line, false);
       continue;
     }
-    if (!options.keep_water && is_water(trimmed(line, 18, 21))) {
+    if (!options.keep_waters && is_water(trimmed(line, 18, 21))) {
       note(report, "atom left out: water", lines.number(), line, false);
       continue;
     }

@@ -68,11 +68,11 @@ absl::Status mend_radii(std::vector<SwcSample>& samples, const ImportOptions& op
   for (const SwcSample& sample : samples) {
     if (sample.radius > 0) smallest = std::min(smallest, sample.radius);
   }
-  const double stand_in = options.radius.value_or(smallest);
+  const double stand_in = options.min_radius.value_or(smallest);
   for (SwcSample& sample : samples) {
     if (sample.radius > 0) continue;
     if (std::isinf(stand_in)) {
-      return absl::InvalidArgumentError("no sample has a radius > 0; state one to use instead (--radius)");
+      return absl::InvalidArgumentError("no sample has a radius > 0; state one to use instead (--min-radius)");
     }
     sample.radius = stand_in;
     note(report, absl::StrCat("radius not > 0 or not finite: ", stand_in, " used"), sample.line_number, sample.line);

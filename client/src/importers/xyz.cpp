@@ -1,7 +1,7 @@
 #include <absl/strings/ascii.h>
 #include <absl/strings/str_cat.h>
 
-#include <cmath>
+#include <array>
 
 #include "importers/formats.h"
 #include "importers/import_report.h"
@@ -10,11 +10,6 @@
 
 namespace isofield {
 namespace {
-
-// R of a bare point without ImportOptions::radius.
-constexpr double kSoftRadius = 0.5;
-// Where w(r) = (1 - r^2)^3 is 1/2; scene.proto.
-const double kSurface = std::sqrt(1 - std::cbrt(0.5));
 
 // Fields first, first + 1, first + 2.
 bool parse_center(const std::vector<absl::string_view>& fields, std::size_t first, std::array<double, 3>& center) {
@@ -69,39 +64,18 @@ void import_atoms(long long count, LineReader& lines, const ImportOptions& optio
   }
 }
 
-void import_point(const std::vector<absl::string_view>& fields, std::size_t number, absl::string_view line,
-                  const ImportOptions& options, Imported& imported) {
-  ++imported.report.read;
-  std::array<double, 3> center;
-  if (!parse_center(fields, 0, center)) {
-    note(imported.report, "line dropped: expected \"x y z\" with finite numbers of a usable size", number, line);
-    return;
-  }
-  const double soft_radius = options.radius.value_or(kSoftRadius);
-  v1::Sphere& sphere = *imported.scene.add_nodes()->mutable_sphere();
-  for (const double coordinate : center) sphere.add_center(coordinate);
-  sphere.set_radius(kSurface * soft_radius);
-  sphere.set_range(options.range.value_or((1 - kSurface) * soft_radius));
-}
-
 }  // namespace
 
 absl::Status import_xyz(const std::string& text, const ImportOptions& options, Imported& imported) {
-  imported.report.format = "points (XYZ)";
   LineReader lines(text);
   absl::string_view line;
-  bool first = true;
   while (lines.next(line)) {
     if (line.empty() || line.front() == '#') continue;
     const auto fields = split_fields(line);
-    if (first && fields.size() == 1) {
-      if (const auto count = parse_integer(fields[0]); count && *count >= 0) {
-        import_atoms(*count, lines, options, imported);
-        return absl::OkStatus();
-      }
-    }
-    first = false;
-    import_point(fields, lines.number(), line, options, imported);
+    const auto count = parse_integer(fields[0]);
+    if (fields.size() != 1 || !count || *count < 0) return import_points(text, options, imported);
+    import_atoms(*count, lines, options, imported);
+    break;
   }
   return absl::OkStatus();
 }
