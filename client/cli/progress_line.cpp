@@ -13,11 +13,12 @@ ProgressLine::~ProgressLine() {
   if (enabled_) std::fputs("\r\x1b[K", stderr);
 }
 
-void ProgressLine::show(const std::string& text) {
+void ProgressLine::show(const std::string& stage, const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
-  if (!enabled_ || now < next_) return;
+  if (!enabled_ || (now < next_ && stage == stage_)) return;
+  stage_ = stage;
   next_ = now + std::chrono::milliseconds(100);
-  std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
+  std::fprintf(stderr, "\r\x1b[K%s: %s", stage.c_str(), text.c_str());
   std::fflush(stderr);
 }
 

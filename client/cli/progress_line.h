@@ -13,11 +13,12 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  // Shown at most ten times a second.
-  void show(const std::string& text);
+  // "stage: TEXT", at most ten times a second, and whenever the stage is another one.
+  void show(const std::string& stage, const std::string& text);
 
  private:
   const bool enabled_;
+  std::string stage_;
   std::chrono::steady_clock::time_point next_;
 };
 

@@ -54,7 +54,7 @@ absl::Status read_mesh(grpc::ClientContext& context, grpc::ClientReader<Response
   while (status.ok() && stream.Read(&response)) {
     switch (response.message_case()) {
       case Response::kProgress:
-        if (progress && !progress(response.progress().fraction())) status = absl::CancelledError("mesh cancelled");
+        if (progress && !progress(response.progress())) status = absl::CancelledError("mesh cancelled");
         break;
       case Response::kSummary:
         summary = response.summary();

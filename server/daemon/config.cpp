@@ -53,6 +53,13 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   app.add_option("--hot-points", c.hot_points,
                  "Points evaluated of small scenes of one structure before a kernel is compiled for it; 0: never")
       ->envname("ISOFIELD_HOT_POINTS");
+  app.add_option("--compile-ahead", c.compile_ahead,
+                 "While a named scene is edited, compile in the background what it is likely to need next: true or false")
+      ->envname("ISOFIELD_COMPILE_AHEAD");
+  app.add_option("--max-kernels", c.max_kernels,
+                 "Compiled kernels kept, some 0.25 MB each on lavapipe; beyond these the least recently used are freed")
+      ->envname("ISOFIELD_MAX_KERNELS")
+      ->check(CLI::Range(std::size_t{64}, std::size_t{65536}));
   app.add_option("--max-nodes", c.limits.scene.max_nodes, "Nodes of a scene")->envname("ISOFIELD_MAX_NODES");
   app.add_option("--max-primitives", c.limits.scene.max_primitives, "Primitives of a scene after instancing")
       ->envname("ISOFIELD_MAX_PRIMITIVES");

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/kernel_cache.h"
 #include "rpc/limits.h"
 
 namespace isofield::daemon {
@@ -18,6 +19,8 @@ struct Config {
   int max_threads = 256;
   bool shared_memory = false;
   std::uint64_t hot_points = 1u << 20;  // 0: no kernel is written
+  bool compile_ahead = true;            // kernels that scenes which are edited are likely to need
+  std::size_t max_kernels = engine::KernelOptions{}.most;
   rpc::Limits limits;
 };
 

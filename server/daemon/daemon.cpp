@@ -64,10 +64,12 @@ std::string region_socket_path(const Config& config) {
   return path.empty() ? "" : std::filesystem::absolute(path).string() + ".shm";
 }
 
+std::string kernel_folder(const Config& config) {
+  return config.data_dir.empty() ? "" : (std::filesystem::path(config.data_dir) / "kernels").string();
+}
+
 engine::TierTwoOptions tier_two(const Config& config) {
-  return {.is_on = config.hot_points > 0,
-          .hot_points = config.hot_points,
-          .folder = config.data_dir.empty() ? "" : (std::filesystem::path(config.data_dir) / "kernels").string()};
+  return {.is_on = config.hot_points > 0, .hot_points = config.hot_points, .folder = kernel_folder(config)};
 }
 
 sigset_t stop_signals() {
@@ -147,9 +149,11 @@ absl::Status run(const Config& config, const std::string& version) {
   options.name = config.device;
   options.validation = config.validation;
   options.on_validation_message = [](const std::string& message) { spdlog::error("Vulkan validation: {}", message); };
+  const auto specialised = std::make_shared<engine::SpecialisedKernels>(kernel_folder(config));
   ISOFIELD_ASSIGN_OR_RETURN(
       const std::unique_ptr<engine::Engine> engine,
-      engine::Engine::create(options, config.limits.scene, config.limits.queue, tier_two(config)));
+      engine::Engine::create(options, config.limits.scene, config.limits.queue, tier_two(config),
+                             {.most = config.max_kernels, .specialised = specialised}));
   const gpu::DeviceDescription& d = engine->device().description();
   spdlog::info("isofieldd {} on {} ({}, Vulkan {})", version, d.name, d.driver, d.vulkan_version);
 
@@ -158,7 +162,9 @@ absl::Status run(const Config& config, const std::string& version) {
   catalog::Catalog catalog(limits.max_scenes);
   catalog::OperatorCatalog operators(limits.max_operators);
   const rpc::SceneSource scenes(catalog, operators, *engine);
-  rpc::SceneEditor editor(catalog, *engine);
+  std::optional<engine::CompileAhead> ahead;
+  if (config.compile_ahead) ahead.emplace(gpu::DeviceOptions{.name = config.device}, config.limits.scene, specialised);
+  rpc::SceneEditor editor(catalog, *engine, ahead ? &*ahead : nullptr);
   rpc::SceneService scene_service(catalog, operators, *engine, editor);
   rpc::OperatorService operator_service(operators, scenes, *engine, limits);
   rpc::SharedRegions shared_regions(limits.shared);

@@ -21,7 +21,7 @@ namespace isofield::engine {
 class BrickTapes {
  public:
   // Takes the list's code, and lets its bricks' tapes begin in their windows. What is given must outlive it.
-  BrickTapes(gpu::Device& device, KernelCache& kernels, const ResidentScene& scene, blobtree::BrickList& list);
+  BrickTapes(gpu::Device& device, const Kernels& kernels, const ResidentScene& scene, blobtree::BrickList& list);
   absl::Status upload(Session& session) { return windows_.upload(session); }
 
   // What is to be done, by the kernels that do it: of bricks whose tapes are in one window; single leaves by the kernel
@@ -55,7 +55,7 @@ class BrickTapes {
 
  private:
   std::uint32_t dispatch_runs_;
-  KernelCache& kernels_;
+  const Kernels& kernels_;
   const ResidentScene& scene_;
   const std::vector<blobtree::Brick>& bricks_;
   TapeWindows windows_;

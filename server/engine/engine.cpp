@@ -11,11 +11,11 @@
 namespace isofield::engine {
 
 Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue,
-               const TierTwoOptions& tier_two)
+               const TierTwoOptions& tier_two, const KernelOptions& kernels)
     : device_(std::move(device)),
       limits_(limits),
       workers_(std::max(std::thread::hardware_concurrency(), 1u) - 1),
-      kernels_(*device_),
+      kernels_(*device_, kernels),
       volumes_(*device_, kernels_),
       written_(*device_, tier_two),
       fields_(*device_, kernels_, workers_, &written_),
@@ -33,9 +33,9 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
 
 absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions& options,
                                                        const blobtree::SceneLimits& limits, const QueueLimits& queue,
-                                                       const TierTwoOptions& tier_two) {
+                                                       const TierTwoOptions& tier_two, const KernelOptions& kernels) {
   ISOFIELD_ASSIGN_OR_RETURN(auto device, gpu::Device::create(options));
-  return std::unique_ptr<Engine>(new Engine(std::move(device), limits, queue, tier_two));
+  return std::unique_ptr<Engine>(new Engine(std::move(device), limits, queue, tier_two, kernels));
 }
 
 absl::StatusOr<SceneLease> Engine::make_resident(const v1::Scene& scene, const blobtree::OperatorTable& operators) {

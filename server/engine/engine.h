@@ -31,7 +31,8 @@ class Engine {
   static absl::StatusOr<std::unique_ptr<Engine>> create(const gpu::DeviceOptions& options,
                                                         const blobtree::SceneLimits& limits,
                                                         const QueueLimits& queue = {},
-                                                        const TierTwoOptions& tier_two = {});
+                                                        const TierTwoOptions& tier_two = {},
+                                                        const KernelOptions& kernels = {});
 
   // Validates, compiles and uploads. `operators`: those that custom nodes name. INVALID_ARGUMENT as stated in
   // scene.proto.
@@ -62,6 +63,7 @@ class Engine {
   gpu::Device& device() { return *device_; }
   FieldEvaluator& fields() { return fields_; }
   WrittenKernels& written_kernels() { return written_; }
+  const KernelCache& kernels() const { return kernels_; }
   Mesher& mesher() { return mesher_; }
   RayCaster& rays() { return rays_; }
   SurfaceProjector& projector() { return projector_; }
@@ -69,7 +71,7 @@ class Engine {
 
  private:
   Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue,
-         const TierTwoOptions& tier_two);
+         const TierTwoOptions& tier_two, const KernelOptions& kernels);
 
   std::unique_ptr<gpu::Device> device_;
   blobtree::SceneLimits limits_;

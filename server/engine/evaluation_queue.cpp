@@ -51,7 +51,7 @@ EvaluationQueue::~EvaluationQueue() {
 void EvaluationQueue::submit(PointBatch batch, Done done) {
   if (batch.xyz.empty()) return done(absl::OkStatus());
   if (const absl::Status s = admit(batch); !s.ok()) return done(s);
-  auto self = std::make_unique<Waiting>(Waiting{std::move(batch), std::move(done), {}});
+  auto self = std::make_unique<Waiting>(Waiting{.batch = std::move(batch), .done = std::move(done), .status = {}});
   if (points_of(self->batch) > kSmallPoints) {
     self->status = evaluate_large(self->batch);
     return answer(*self);
@@ -125,8 +125,10 @@ absl::Status EvaluationQueue::refusal() const {
 absl::Status EvaluationQueue::evaluate_large(const PointBatch& batch) {
   const auto is_late = [&] { return batch.deadline <= now_(); };
   if (is_late()) return deadline_exceeded();
+  RequestTimes unasked;
+  const auto cancelled = [&] { return (batch.cancelled && batch.cancelled()) || is_late(); };
   const absl::Status status =
-      run(batch, batch.xyz, batch.out, [&] { return (batch.cancelled && batch.cancelled()) || is_late(); }, {});
+      run(batch, batch.xyz, batch.out, cancelled, {}, batch.times ? *batch.times : unasked);
   return absl::IsCancelled(status) && is_late() ? deadline_exceeded() : status;
 }
 
@@ -152,8 +154,15 @@ EvaluationQueue::Batches EvaluationQueue::run_next(std::unique_lock<std::mutex>&
     }
   }
   if (!running.empty()) {
-    const absl::Status status = run_joined(running, std::move(turn));
-    for (Waiting* w : running) w->status = status;
+    const auto start = std::chrono::steady_clock::now();
+    RequestTimes times;
+    const absl::Status status = run_joined(running, std::move(turn), times);
+    for (Waiting* w : running) {
+      w->status = status;
+      if (!w->batch.times) continue;
+      w->batch.times->add_queued(start - w->came + times.queued());
+      w->batch.times->add_on_device(times.on_device());
+    }
   }
   turn = {};
   lock.lock();
@@ -198,9 +207,10 @@ EvaluationQueue::Batches EvaluationQueue::take_next() {
   return joined;
 }
 
-absl::Status EvaluationQueue::run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn) {
+absl::Status EvaluationQueue::run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn,
+                                         RequestTimes& times) {
   const PointBatch& first = joined.front()->batch;
-  if (joined.size() == 1) return run(first, first.xyz, first.out, first.cancelled, std::move(turn));
+  if (joined.size() == 1) return run(first, first.xyz, first.out, first.cancelled, std::move(turn), times);
   std::vector<float> xyz;
   for (const Waiting* w : joined) xyz.insert(xyz.end(), w->batch.xyz.begin(), w->batch.xyz.end());
   std::vector<float> out(xyz.size() / 3 * components(first.quantity));
@@ -209,7 +219,7 @@ absl::Status EvaluationQueue::run_joined(const std::vector<Waiting*>& joined, gp
     return std::all_of(joined.begin(), joined.end(),
                        [](const Waiting* w) { return w->batch.cancelled && w->batch.cancelled(); });
   };
-  ISOFIELD_RETURN_IF_ERROR(run(first, xyz, out, cancelled, std::move(turn)));
+  ISOFIELD_RETURN_IF_ERROR(run(first, xyz, out, cancelled, std::move(turn), times));
   auto from = out.begin();
   for (const Waiting* w : joined) {
     std::copy_n(from, w->batch.out.size(), w->batch.out.begin());
@@ -219,7 +229,9 @@ absl::Status EvaluationQueue::run_joined(const std::vector<Waiting*>& joined, gp
 }
 
 absl::Status EvaluationQueue::run(const PointBatch& first, std::span<const float> xyz, std::span<float> out,
-                                  const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn) {
+                                  const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn,
+                                  RequestTimes& times) {
+  const TimedScope timed(times);
   const gpu::Deadline start = now_();
   const absl::Status status =
       run_(*first.scene, xyz, first.quantity, out, cancelled, {urgency_of(first), std::move(turn)});

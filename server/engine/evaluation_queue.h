@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/field_evaluator.h"
+#include "engine/request_times.h"
 #include "gpu/turns.h"
 
 namespace isofield::engine {
@@ -36,6 +37,8 @@ struct PointBatch {
   int priority = 0;      // the higher first
   gpu::Deadline deadline = gpu::Deadline::max();
   FieldEvaluator::Cancelled cancelled;
+  // Where it is not null, is given how long the batch waited and ran, before it is done.
+  RequestTimes* times = nullptr;
   // Not refused: of those whose number is limited elsewhere.
   bool is_admitted = false;
 };
@@ -86,6 +89,7 @@ class EvaluationQueue {
     PointBatch batch;
     Done done;
     absl::Status status;
+    std::chrono::steady_clock::time_point came = std::chrono::steady_clock::now();
   };
   using Batches = std::vector<std::unique_ptr<Waiting>>;
 
@@ -97,11 +101,11 @@ class EvaluationQueue {
   gpu::Urgency most_urgent() const;
   void wait_for_more(std::unique_lock<std::mutex>& lock);
   Batches take_next();
-  absl::Status run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn);
+  absl::Status run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn, RequestTimes& times);
   absl::Status refusal() const;
   // run_, timed.
   absl::Status run(const PointBatch& first, std::span<const float> xyz, std::span<float> out,
-                   const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn);
+                   const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn, RequestTimes& times);
 
   gpu::Turns& turns_;
   const Run run_;

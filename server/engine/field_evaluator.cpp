@@ -103,9 +103,9 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
                                       std::span<float> out, const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3;
   if (count == 0) return absl::OkStatus();
-  const gpu::Pipeline* const written =
+  const gpu::SharedPipeline written =
       written_ ? written_->find(scene, quantity == Quantity::kValueAndGradient, count) : nullptr;
-  if (written) return evaluate_written(*written, scene, xyz, quantity, out, cancelled, std::move(submission));
+  if (written) return evaluate_written(written, scene, xyz, quantity, out, cancelled, std::move(submission));
   if (!is_sorted(scene)) return evaluate_unsorted(scene, xyz, quantity, out, cancelled, std::move(submission));
   const bool may_make = !submission.turn;  // which takes a turn of its own
   ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, may_make, cancelled));
@@ -215,9 +215,9 @@ absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, co
     const std::array constants{static_cast<std::uint32_t>(run.first),
                                static_cast<std::uint32_t>(run.first + run.count - 1),
                                static_cast<std::uint32_t>(std::countr_zero(points_per_job))};
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel,
                               kernels_.get(points_shader(quantity, true), tapes.kind(kind, run.window)));
-    return session.commands().dispatch(*kernel,
+    return session.commands().dispatch(kernel,
                                        tapes.bindings(run.window, {{4, &job_buffer}, {5, &points}, {7, &results}}),
                                        constants, (run.count + jobs_per_group - 1) / jobs_per_group);
   }));
@@ -250,7 +250,7 @@ absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const
   return finish(running);
 }
 
-absl::Status FieldEvaluator::evaluate_written(const gpu::Pipeline& kernel, const ResidentScene& scene,
+absl::Status FieldEvaluator::evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene,
                                               std::span<const float> xyz, Quantity quantity, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
   const std::size_t most = std::max<std::size_t>(kWrittenWork / WrittenKernels::work_of(scene.tape()), kPointsPerGroup);
@@ -270,14 +270,14 @@ absl::Status FieldEvaluator::evaluate_unsorted(const ResidentScene& scene, std::
   const auto length = static_cast<std::uint32_t>(scene.tape().code.size());
   const std::uint32_t window = tapes.add(begin, length);
   ISOFIELD_ASSIGN_OR_RETURN(
-      const gpu::Pipeline* kernel,
+      const gpu::SharedPipeline kernel,
       kernels_.get(points_shader(quantity, false), tapes.kind(KernelKind::of(scene.tape()), window)));
   bool is_uploaded = false;
   return evaluate_in_order(kSubmissionWork / length, xyz, quantity, out, cancelled, std::move(submission),
                            [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last,
                                std::uint32_t groups) -> absl::Status {
                              if (!std::exchange(is_uploaded, true)) ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
-                             return session.commands().dispatch(*kernel, tapes.bindings(window, own),
+                             return session.commands().dispatch(kernel, tapes.bindings(window, own),
                                                                 std::array{last, begin, length}, groups);
                            });
 }
@@ -322,8 +322,8 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
   const shaders::Spirv& shader = quantity == Quantity::kValue ? shaders::kGridValue : shaders::kGridGradient;
   ISOFIELD_RETURN_IF_ERROR(record_runs(session, runs, cancelled, [&](const JobRun& run) -> absl::Status {
     constants.first_brick = static_cast<std::uint32_t>(run.first);
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shader, tapes.kind(kind, run.window)));
-    return session.commands().dispatch(*kernel, tapes.bindings(run.window, {{4, &brick_buffer}, {7, &results}}),
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shader, tapes.kind(kind, run.window)));
+    return session.commands().dispatch(kernel, tapes.bindings(run.window, {{4, &brick_buffer}, {7, &results}}),
                                        constants, run.count);
   }));
   ISOFIELD_RETURN_IF_ERROR(session.download(results, out));

@@ -54,7 +54,7 @@ class FieldEvaluator {
                                Quantity quantity, std::span<float> out, const Cancelled& cancelled = {});
 
  private:
-  absl::Status evaluate_written(const gpu::Pipeline& kernel, const ResidentScene& scene, std::span<const float> xyz,
+  absl::Status evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene, std::span<const float> xyz,
                                 Quantity quantity, std::span<float> out, const Cancelled& cancelled,
                                 Submission submission);
 

@@ -1,5 +1,6 @@
 #include "engine/kernel_cache.h"
 
+#include "engine/status_macros.h"
 #include "gpu/commands.h"
 
 namespace isofield::engine {
@@ -51,7 +52,8 @@ const shaders::Spirv& KernelCache::of(const shaders::InRounds& shader) const {
   return device_.description().type == "cpu" ? shader.narrow : shader.wide;
 }
 
-absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind) {
+absl::StatusOr<gpu::SharedPipeline> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind,
+                                                     const std::function<void()>& waits) {
   const Key key{reinterpret_cast<std::uintptr_t>(shader.data()),
                 kind.operand_set,
                 kind.operator_set,
@@ -62,28 +64,55 @@ absl::StatusOr<const gpu::Pipeline*> KernelCache::get(const shaders::Spirv& shad
                 kind.uniform_set};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
-  bool compiles = false;
+  bool compiles = false, is_ready = false;
   {
     const std::lock_guard lock(mutex_);
+    if (kernels_.size() >= most_ && !kernels_.contains(key)) forget_least_used();
     auto [it, added] = kernels_.try_emplace(key);
     if (added) {
-      it->second = promise.get_future().share();
+      it->second.kernel = promise.get_future().share();
       compiles = true;
     }
-    kernel = it->second;
+    it->second.last_used = ++uses_;
+    kernel = it->second.kernel;
+    is_ready = it->second.is_ready;
   }
+  if (!is_ready && waits) waits();
   if (compiles) {
-    auto pipeline = gpu::Pipeline::create(device_, shader, kind.constants());
-    if (!pipeline.ok()) {
-      // A later request may find the memory that was missing.
+    Compiled compiled = compile(shader, kind);
+    {
       const std::lock_guard lock(mutex_);
-      kernels_.erase(key);
+      if (compiled.ok()) {
+        kernels_[key].is_ready = true;
+        ++compiled_;
+      } else {
+        // A later request may find the memory that was missing.
+        kernels_.erase(key);
+      }
     }
-    promise.set_value(pipeline.ok() ? Compiled(*std::move(pipeline)) : Compiled(pipeline.status()));
+    promise.set_value(std::move(compiled));
   }
-  const Compiled& compiled = kernel.get();
-  if (!compiled.ok()) return compiled.status();
-  return compiled->get();
+  return kernel.get();
+}
+
+KernelCache::Compiled KernelCache::compile(const shaders::Spirv& shader, const KernelKind& kind) {
+  ISOFIELD_ASSIGN_OR_RETURN(const SpecialisedKernels::Kernel kernel, specialised_->get(shader, kind.constants()));
+  return gpu::Pipeline::create(device_, *kernel);
+}
+
+void KernelCache::forget_least_used() {
+  auto oldest = kernels_.end();
+  for (auto it = kernels_.begin(); it != kernels_.end(); ++it) {
+    if (it->second.is_ready && (oldest == kernels_.end() || it->second.last_used < oldest->second.last_used)) {
+      oldest = it;
+    }
+  }
+  if (oldest != kernels_.end()) kernels_.erase(oldest);
+}
+
+KernelCache::Counts KernelCache::counts() const {
+  const std::lock_guard lock(mutex_);
+  return {kernels_.size(), compiled_};
 }
 
 }  // namespace isofield::engine

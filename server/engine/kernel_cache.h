@@ -1,16 +1,19 @@
-// Pipelines by entry point and specialisation, compiled on first use and kept.
+// Pipelines by entry point and specialisation, compiled on first use; the least recently used are freed.
 #pragma once
 
 #include <absl/status/statusor.h>
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "blobtree/tape.h"
+#include "engine/specialised_kernels.h"
 #include "gpu/device.h"
 #include "gpu/pipeline.h"
 #include "shaders/embedded.h"
@@ -36,22 +39,66 @@ struct KernelKind {
   }
 };
 
-// Thread-safe. A kernel that two threads want is compiled once, and the second waits.
+struct KernelOptions {
+  // A kernel of a scene takes some 0.25 MB on lavapipe, and a scene's mesh about a dozen of them.
+  std::size_t most = 512;
+  // May be shared with other devices; null for its own.
+  std::shared_ptr<SpecialisedKernels> specialised;
+};
+
+// Thread-safe. A kernel that two threads want is compiled once, and the second waits. One that is freed lives on where
+// it is used.
 class KernelCache {
  public:
-  explicit KernelCache(gpu::Device& device) : device_(device) {}
+  explicit KernelCache(gpu::Device& device, KernelOptions options = {})
+      : device_(device),
+        most_(options.most),
+        specialised_(options.specialised ? std::move(options.specialised) : std::make_shared<SpecialisedKernels>()) {}
 
-  absl::StatusOr<const gpu::Pipeline*> get(const shaders::Spirv& shader, const KernelKind& kind = {});
+  // `waits` is called before the caller waits for the driver to compile.
+  absl::StatusOr<gpu::SharedPipeline> get(const shaders::Spirv& shader, const KernelKind& kind = {},
+                                          const std::function<void()>& waits = {});
   // That which suits the device.
   const shaders::Spirv& of(const shaders::InRounds& shader) const;
 
+  struct Counts {
+    std::uint64_t held = 0, compiled = 0;
+  };
+  Counts counts() const;
+
  private:
-  using Compiled = absl::StatusOr<std::shared_ptr<const gpu::Pipeline>>;
+  using Compiled = absl::StatusOr<gpu::SharedPipeline>;
   using Key = std::array<std::uintptr_t, 8>;
+  struct Entry {
+    std::shared_future<Compiled> kernel;
+    std::uint64_t last_used = 0;  // in calls of get()
+    bool is_ready = false;
+  };
+
+  Compiled compile(const shaders::Spirv& shader, const KernelKind& kind);
+  void forget_least_used();
 
   gpu::Device& device_;
-  std::mutex mutex_;
-  std::map<Key, std::shared_future<Compiled>> kernels_;
+  const std::size_t most_;
+  const std::shared_ptr<SpecialisedKernels> specialised_;
+  mutable std::mutex mutex_;
+  std::map<Key, Entry> kernels_;
+  std::uint64_t uses_ = 0, compiled_ = 0;
+};
+
+// The kernels of one request, which hears when it waits for one to be compiled.
+class Kernels {
+ public:
+  Kernels(KernelCache& cache, std::function<void()> waits) : cache_(cache), waits_(std::move(waits)) {}
+
+  absl::StatusOr<gpu::SharedPipeline> get(const shaders::Spirv& shader, const KernelKind& kind = {}) const {
+    return cache_.get(shader, kind, waits_);
+  }
+  const shaders::Spirv& of(const shaders::InRounds& shader) const { return cache_.of(shader); }
+
+ private:
+  KernelCache& cache_;
+  const std::function<void()> waits_;
 };
 
 }  // namespace isofield::engine

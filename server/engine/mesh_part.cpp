@@ -45,7 +45,7 @@ class Run {
   Run(gpu::Device& device, KernelCache& kernels, const ResidentScene& scene, const MeshRequest& request,
       PartBricks part, const MeshCallbacks& callbacks)
       : device_(device),
-        kernels_(kernels),
+        kernels_(kernels, callbacks.compiling),
         scene_(scene),
         request_(request),
         callbacks_(callbacks),
@@ -123,7 +123,7 @@ class Run {
 
   absl::Status sample() {
     const auto total = static_cast<std::uint32_t>(list_.bricks.size());
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* share, kernels_.get(shaders::kMeshShare));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline share, kernels_.get(shaders::kMeshShare));
     for (std::uint32_t first = 0, count = 0; first < total; first += count) {
       ISOFIELD_RETURN_IF_ERROR(check(0.1 + 0.5 * first / total));
       count = slab_from(first);
@@ -148,7 +148,7 @@ class Run {
       if (constants.count > 0) {
         ISOFIELD_ASSIGN_OR_RETURN(Buffer copies, session.upload(std::span(parts.taken_over)));
         ISOFIELD_RETURN_IF_ERROR(
-            session.commands().dispatch(*share, {{5, &keep.emplace_back(std::move(copies))}, {6, &samples}}, constants,
+            session.commands().dispatch(share, {{5, &keep.emplace_back(std::move(copies))}, {6, &samples}}, constants,
                                         (constants.count + kSamplePartsPerGroup - 1) / kSamplePartsPerGroup));
         session.commands().barrier();
       }
@@ -171,14 +171,14 @@ class Run {
     ISOFIELD_RETURN_IF_ERROR(check(0.6));
     const auto total = static_cast<std::uint32_t>(list_.bricks.size());
     std::vector<Pair> counts(total);
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshConnect));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shaders::kMeshConnect));
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
     ISOFIELD_ASSIGN_OR_RETURN(cells_, session.scratch(std::size_t{4} * kCells * total));
     ISOFIELD_ASSIGN_OR_RETURN(const Buffer count_buffer, session.scratch(sizeof(Pair) * total));
     Constants constants = constants_;
     constants.count = total;
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        *kernel,
+        kernel,
         {{4, &bricks_}, {5, &surface_cases_}, {6, &cases_}, {7, &neighbours_}, {8, &cells_}, {9, &count_buffer}},
         constants, mesh_groups(total)));
     ISOFIELD_RETURN_IF_ERROR(session.download(count_buffer, std::span(counts)));
@@ -204,7 +204,7 @@ class Run {
   absl::Status list_elements() {
     ISOFIELD_RETURN_IF_ERROR(check(0.65));
     const auto total = static_cast<std::uint32_t>(list_.bricks.size());
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshList));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shaders::kMeshList));
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
     ISOFIELD_ASSIGN_OR_RETURN(starts_buffer_, session.upload(std::span(starts_)));
     ISOFIELD_ASSIGN_OR_RETURN(vertex_list_, session.scratch(std::size_t{4} * starts_.back()[0]));
@@ -212,7 +212,7 @@ class Run {
     Constants constants = constants_;
     constants.count = total;
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        *kernel,
+        kernel,
         {{4, &bricks_}, {5, &surface_cases_}, {6, &cells_}, {7, &starts_buffer_}, {8, &vertex_list_}, {9, &quad_list_}},
         constants, mesh_groups(total)));
     return session.run();
@@ -267,11 +267,11 @@ class Run {
     }
     if (bricks.empty()) return absl::OkStatus();
     deal(bricks, 0, bricks.size(), device_.description().dispatch_runs);
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(kernels_.of(shader)));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(kernels_.of(shader)));
     ISOFIELD_ASSIGN_OR_RETURN(Buffer placed, session.upload(std::span(bricks)));
     Constants constants = constants_;
     constants.first = slab.first;
-    return session.commands().dispatch(*kernel,
+    return session.commands().dispatch(kernel,
                                        {{4, &bricks_},
                                         {5, &surface_cases_},
                                         {6, &cells_},
@@ -426,7 +426,7 @@ class Run {
   }
 
   gpu::Device& device_;
-  KernelCache& kernels_;
+  const Kernels kernels_;
   const ResidentScene& scene_;
   const MeshRequest& request_;
   const MeshCallbacks& callbacks_;

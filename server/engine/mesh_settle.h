@@ -26,11 +26,11 @@ struct SampledSlab {
 
 // Records which corners of cells are inside: of constants.count bricks of the slab or, where constants.flags has 4, of
 // those that are listed. near_bricks becomes 1 for each that has samples near the surface, and else stays.
-absl::Status classify(Session& session, KernelCache& kernels, const MeshConstants& constants, const SampledSlab& slab,
+absl::Status classify(Session& session, const Kernels& kernels, const MeshConstants& constants, const SampledSlab& slab,
                       const gpu::Buffer& near_bricks, const gpu::Buffer& listed);
 
 // Settles the samples that are on the surface of bricks for which is_near is not 0, and classifies these anew.
-absl::Status settle_samples(gpu::Device& device, KernelCache& kernels, BrickTapes& tapes, MeshConstants constants,
+absl::Status settle_samples(gpu::Device& device, const Kernels& kernels, BrickTapes& tapes, MeshConstants constants,
                             const gpu::Buffer& bricks, const SampledSlab& slab, std::span<const std::uint32_t> is_near);
 
 }  // namespace isofield::engine

@@ -30,7 +30,7 @@ absl::Status QuadCutter::cut(const Buffer& positions, const Buffer& kinds, bool 
   cuts_.resize(total);
   ISOFIELD_ASSIGN_OR_RETURN(cuts_buffer_, Buffer::create(device_, std::size_t{4} * total, Buffer::Use::kDevice));
   ISOFIELD_ASSIGN_OR_RETURN(corners_, Buffer::create(device_, std::size_t{16} * total, Buffer::Use::kDevice));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel,
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel,
                             kernels_.get(is_smooth ? shaders::kMeshQuadsSmooth : shaders::kMeshQuads));
   for (std::uint32_t first = 0; first < total; first += kQuadSlab) {
     ISOFIELD_RETURN_IF_ERROR(check_(0.95));
@@ -39,7 +39,7 @@ absl::Status QuadCutter::cut(const Buffer& positions, const Buffer& kinds, bool 
     constants.first = first;
     constants.count = std::min(kQuadSlab, total - first);
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        *kernel, with_quads({{11, &positions}, {12, &cuts_buffer_}, {13, &kinds}, {14, &corners_}}), constants,
+        kernel, with_quads({{11, &positions}, {12, &cuts_buffer_}, {13, &kinds}, {14, &corners_}}), constants,
         mesh_groups(constants.count)));
     if (first + constants.count == total) {
       ISOFIELD_RETURN_IF_ERROR(session.download(cuts_buffer_, std::span(cuts_)));
@@ -70,7 +70,7 @@ absl::StatusOr<Buffer> QuadCutter::make(std::vector<std::uint32_t>& corners, std
   const std::uint32_t total = quad_count();
   corners.resize(std::size_t{6} * (total + fans()));
   positions.resize(std::size_t{3} * fans());
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels_.get(shaders::kMeshTriangles));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shaders::kMeshTriangles));
   ISOFIELD_ASSIGN_OR_RETURN(Buffer centres,
                             Buffer::create(device_, std::size_t{12} * std::max(fans(), 1u), Buffer::Use::kDevice));
   for (std::uint32_t first = 0; first < total; first += kQuadSlab) {
@@ -84,7 +84,7 @@ absl::StatusOr<Buffer> QuadCutter::make(std::vector<std::uint32_t>& corners, std
     constants.first = first;
     constants.count = count;
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        *kernel,
+        kernel,
         with_quads({{11, &corners_}, {12, &cuts_buffer_}, {13, &triangles}, {14, &centres}, {15, &fan_starts_buffer_}}),
         constants, mesh_groups(count)));
     ISOFIELD_RETURN_IF_ERROR(session.download(triangles, std::span(corners).subspan(begin, end - begin)));

@@ -25,7 +25,7 @@ class QuadCutter {
 
   // `quads` are the bindings of shaders/lib/mesh_quads.glsl, `starts` those of the bricks whose quads are cut. What is
   // referred to must outlive this.
-  QuadCutter(gpu::Device& device, KernelCache& kernels, const MeshConstants& constants, gpu::Commands::Bindings quads,
+  QuadCutter(gpu::Device& device, const Kernels& kernels, const MeshConstants& constants, gpu::Commands::Bindings quads,
              std::span<const MeshStart> starts, const Check& check)
       : device_(device),
         kernels_(kernels),
@@ -53,7 +53,7 @@ class QuadCutter {
   gpu::Commands::Bindings with_quads(const gpu::Commands::Bindings& own) const;
 
   gpu::Device& device_;
-  KernelCache& kernels_;
+  const Kernels& kernels_;
   const MeshConstants& constants_;
   const gpu::Commands::Bindings quads_;
   const std::span<const MeshStart> starts_;

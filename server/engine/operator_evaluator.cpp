@@ -32,7 +32,7 @@ absl::Status run(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes
   const KernelKind kind = KernelKind::of(tape);
   constants.code = tape.code[0].code;
   constants.record = tape.code[0].operation;
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Pipeline* kernel, kernels.get(shaders::kOperatorEval, kind));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels.get(shaders::kOperatorEval, kind));
   ISOFIELD_ASSIGN_OR_RETURN(const auto resident, ResidentScene::create(device, volumes, std::move(tape)));
   const std::size_t rows = arguments.size() / constants.columns;
   for (std::size_t first = 0; first < rows; first += kMostRows) {
@@ -44,7 +44,7 @@ absl::Status run(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer out, session.scratch(count * result_columns * sizeof(float)));
     // The kernel runs no tape: any buffer will do in its place.
     ISOFIELD_RETURN_IF_ERROR(
-        session.commands().dispatch(*kernel, resident->bindings(in, {{4, &in}, {5, &out}}), constants,
+        session.commands().dispatch(kernel, resident->bindings(in, {{4, &in}, {5, &out}}), constants,
                                     static_cast<std::uint32_t>((count + kLocalSize - 1) / kLocalSize)));
     ISOFIELD_RETURN_IF_ERROR(session.download(out, results.subspan(first * result_columns, count * result_columns)));
     ISOFIELD_RETURN_IF_ERROR(session.run());

@@ -2,11 +2,15 @@
 
 #include <optional>
 
+#include "engine/request_times.h"
+
 namespace isofield::engine {
 
 using gpu::Buffer;
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 // Arrays of fewer bytes are copied in less time than a buffer over them takes to make.
 constexpr std::size_t kLeastBorrowed = 1u << 16;
@@ -74,7 +78,10 @@ absl::Status Session::download_bytes(const Buffer& buffer, std::span<std::byte> 
 
 absl::Status Session::submit() {
   if (!commands_.has_work()) return absl::OkStatus();
+  const Clock::time_point start = Clock::now();
   if (!turn_) turn_ = device_->turns().take(urgency_);
+  submitted_ = Clock::now();
+  if (RequestTimes* const times = TimedScope::current()) times->add_queued(*submitted_ - start);
   absl::Status status = commands_.submit();
   if (!status.ok()) turn_ = {};
   return status;
@@ -83,6 +90,9 @@ absl::Status Session::submit() {
 absl::Status Session::wait() {
   absl::Status status = commands_.wait();
   turn_ = {};
+  RequestTimes* const times = TimedScope::current();
+  if (times && submitted_) times->add_on_device(Clock::now() - *submitted_);
+  submitted_.reset();
   return status;
 }
 

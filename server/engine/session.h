@@ -3,9 +3,11 @@
 
 #include <absl/status/statusor.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstring>
 #include <deque>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -66,6 +68,7 @@ class Session {
   gpu::Device* device_;
   gpu::Urgency urgency_;
   gpu::Turns::Turn turn_;
+  std::optional<std::chrono::steady_clock::time_point> submitted_;
   std::deque<gpu::Buffer> staging_;  // outlives the commands
   gpu::Commands commands_;
   std::vector<Download> downloads_;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/session.h"
 #include "engine/status_macros.h"
 #include "engine/tape_writer.h"
 #include "shaders/tape_compiler.h"
@@ -17,7 +16,7 @@ namespace {
 
 // Structures whose points are counted; of more, those without a kernel are forgotten.
 constexpr std::size_t kMostStructures = 1024;
-// Kernels at most: they live as long as the process.
+// Kernels at most; for one more the least recently used goes.
 constexpr std::uint64_t kMostKernels = 256;
 constexpr int kNiceness = 10;
 
@@ -66,7 +65,7 @@ WrittenKernels::Key WrittenKernels::key_of(const blobtree::Tape& tape, bool with
   return key;
 }
 
-const gpu::Pipeline* WrittenKernels::find(const ResidentScene& scene, bool with_gradient, std::uint64_t points) {
+gpu::SharedPipeline WrittenKernels::find(const ResidentScene& scene, bool with_gradient, std::uint64_t points) {
   const blobtree::Tape& tape = scene.tape();
   if (!options_.is_on || tape.code.size() > most_instructions(tape) || !is_writable(tape)) return nullptr;
   Key key = key_of(tape, with_gradient);
@@ -74,16 +73,30 @@ const gpu::Pipeline* WrittenKernels::find(const ResidentScene& scene, bool with_
   if (entries_.size() >= kMostStructures && !entries_.contains(key)) forget_cold();
   Entry& entry = entries_[key];
   entry.points += points;
-  if (!entry.is_hot && entry.points >= options_.hot_points && counts_.kernels + wanted_.size() < kMostKernels) {
+  entry.last_used = ++uses_;
+  if (!entry.is_hot && entry.points >= options_.hot_points) {
+    if (held_ >= kMostKernels) forget_least_used();
     entry.is_hot = true;
+    ++held_;
     wanted_.push_back({std::move(key), scene.shared_from_this(), with_gradient});
     wanted_more_.notify_one();
   }
-  return entry.kernel.get();
+  return entry.kernel;
 }
 
 void WrittenKernels::forget_cold() {
   std::erase_if(entries_, [](const auto& e) { return !e.second.is_hot; });
+}
+
+// A structure that loses its kernel must become hot again to get another.
+void WrittenKernels::forget_least_used() {
+  auto oldest = entries_.end();
+  for (auto it = entries_.begin(); it != entries_.end(); ++it) {
+    if (it->second.kernel && (oldest == entries_.end() || it->second.last_used < oldest->second.last_used)) oldest = it;
+  }
+  if (oldest == entries_.end()) return;
+  entries_.erase(oldest);
+  --held_;
 }
 
 void WrittenKernels::wait() {
@@ -111,8 +124,13 @@ void WrittenKernels::work() {
     wanted.scene.reset();
     lock.lock();
     // A structure that fails once does so always, and stays with the interpreter.
-    if (kernel.ok()) entries_[wanted.key].kernel = *std::move(kernel);
-    ++(kernel.ok() ? counts_.kernels : counts_.failures);
+    if (kernel.ok()) {
+      entries_[wanted.key].kernel = *std::move(kernel);
+      ++counts_.kernels;
+    } else {
+      --held_;
+      ++counts_.failures;
+    }
     is_at_work_ = false;
     made_one_.notify_all();
   }
@@ -132,19 +150,9 @@ absl::StatusOr<std::vector<std::uint32_t>> WrittenKernels::spirv_of(const Wanted
   return spirv;
 }
 
-absl::StatusOr<std::unique_ptr<const gpu::Pipeline>> WrittenKernels::make(const Wanted& wanted) {
+absl::StatusOr<gpu::SharedPipeline> WrittenKernels::make(const Wanted& wanted) {
   ISOFIELD_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> spirv, spirv_of(wanted));
-  ISOFIELD_ASSIGN_OR_RETURN(std::unique_ptr<gpu::Pipeline> kernel, gpu::Pipeline::create(device_, spirv, {}));
-  // lavapipe compiles a pipeline when it first runs.
-  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-  const std::vector<float> origin(3);
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer point, session.upload(std::span(origin)));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer result, session.scratch(4 * sizeof(float)));
-  constexpr std::uint32_t kLast = 0;
-  ISOFIELD_RETURN_IF_ERROR(
-      session.commands().dispatch(*kernel, wanted.scene->bindings(point, {{6, &point}, {7, &result}}), kLast, 1));
-  ISOFIELD_RETURN_IF_ERROR(session.run());
-  return kernel;
+  return gpu::Pipeline::create(device_, spirv);
 }
 
 }  // namespace isofield::engine

@@ -47,13 +47,13 @@ class WrittenKernels {
 
   // The kernel of shaders/tape_points.comp for the scene's whole tape, or null where there is none, not yet, or never.
   // Never waits for one. `points`: how many will be evaluated now.
-  const gpu::Pipeline* find(const ResidentScene& scene, bool with_gradient, std::uint64_t points);
+  gpu::SharedPipeline find(const ResidentScene& scene, bool with_gradient, std::uint64_t points);
 
   // Until every structure that is hot by now has its kernel, or is known to get none.
   void wait();
 
   struct Counts {
-    std::uint64_t kernels = 0;    // ready
+    std::uint64_t kernels = 0;    // made so far
     std::uint64_t from_disk = 0;  // of these, those that were compiled by an earlier process
     std::uint64_t failures = 0;
   };
@@ -65,7 +65,8 @@ class WrittenKernels {
   struct Entry {
     std::uint64_t points = 0;
     bool is_hot = false;
-    std::unique_ptr<const gpu::Pipeline> kernel;
+    gpu::SharedPipeline kernel;
+    std::uint64_t last_used = 0;  // in calls of find()
   };
   struct Wanted {
     Key key;
@@ -75,9 +76,10 @@ class WrittenKernels {
 
   static Key key_of(const blobtree::Tape& tape, bool with_gradient);
   void work();
-  absl::StatusOr<std::unique_ptr<const gpu::Pipeline>> make(const Wanted& wanted);
+  absl::StatusOr<gpu::SharedPipeline> make(const Wanted& wanted);
   absl::StatusOr<std::vector<std::uint32_t>> spirv_of(const Wanted& wanted);
   void forget_cold();
+  void forget_least_used();
 
   gpu::Device& device_;
   const TierTwoOptions options_;
@@ -85,6 +87,7 @@ class WrittenKernels {
   mutable std::mutex mutex_;
   std::condition_variable wanted_more_, made_one_;
   std::map<Key, Entry> entries_;
+  std::uint64_t uses_ = 0, held_ = 0;  // calls of find(), kernels that are there or wanted
   std::deque<Wanted> wanted_;
   bool is_at_work_ = false, is_over_ = false;
   Counts counts_;

@@ -36,6 +36,7 @@ void Commands::Impl::reset() {
   pool.reset();
   if (is_spent) device.device->resetFences(*fence);
   is_spent = has_work = false;
+  pipelines.clear();
   if (set_pools.empty()) return;
   set_pools.erase(set_pools.begin() + 1, set_pools.end());
   set_pools.front().reset();
@@ -69,10 +70,19 @@ absl::StatusOr<Commands> Commands::begin(Device& device) {
   }
 }
 
-absl::Status Commands::dispatch(const Pipeline& pipeline, const Bindings& bindings,
+absl::Status Commands::dispatch(const SharedPipeline& pipeline, const Bindings& bindings,
                                 std::span<const std::byte> push_constants, std::uint32_t groups) {
   if (groups == 0) return absl::OkStatus();
   if (groups > kMaxGroups) return absl::InternalError(absl::StrCat("a dispatch of ", groups, " workgroups"));
+  return record(pipeline, bindings, push_constants, groups);
+}
+
+absl::Status Commands::dispatch_nothing(const SharedPipeline& pipeline, const Buffer& any) {
+  return record(pipeline, {{0, &any}}, std::vector<std::byte>(kPushBytes), 0);
+}
+
+absl::Status Commands::record(const SharedPipeline& pipeline, const Bindings& bindings,
+                              std::span<const std::byte> push_constants, std::uint32_t groups) {
   try {
     const vk::DescriptorSet set = impl_->next_set();
     std::vector<vk::DescriptorBufferInfo> infos;
@@ -98,11 +108,12 @@ absl::Status Commands::dispatch(const Pipeline& pipeline, const Bindings& bindin
     }
     impl_->device.device->updateDescriptorSets(writes, {});
     const vk::raii::CommandBuffer& b = impl_->buffer;
-    b.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline.impl().pipeline);
+    b.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline->impl().pipeline);
     b.bindDescriptorSets(vk::PipelineBindPoint::eCompute, **impl_->device.pipeline_layout, 0, set, {});
     b.pushConstants<std::byte>(**impl_->device.pipeline_layout, vk::ShaderStageFlagBits::eCompute, 0,
                                vk::ArrayProxy<const std::byte>(push_constants.size(), push_constants.data()));
     b.dispatch(groups, 1, 1);
+    if (impl_->pipelines.empty() || impl_->pipelines.back() != pipeline) impl_->pipelines.push_back(pipeline);
     impl_->has_work = true;
     return absl::OkStatus();
   } catch (const vk::SystemError& error) {

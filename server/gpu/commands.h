@@ -13,8 +13,8 @@
 
 namespace isofield::gpu {
 
-// One thread at a time. Buffers and pipelines used must live until wait() has returned; destroying a submitted one
-// waits.
+// One thread at a time. Buffers used must live until wait() has returned, pipelines are kept until then; destroying a
+// submitted one waits.
 class Commands {
  public:
   static absl::StatusOr<Commands> begin(Device& device);
@@ -31,13 +31,15 @@ class Commands {
   using Bindings = std::vector<Binding>;
   // Runs `groups` workgroups along x, at most kMaxGroups. Nothing is recorded for 0. Bindings that the pipeline
   // declares but its specialisation never reads may go unnamed.
-  absl::Status dispatch(const Pipeline& pipeline, const Bindings& bindings, std::span<const std::byte> push_constants,
-                        std::uint32_t groups);
+  absl::Status dispatch(const SharedPipeline& pipeline, const Bindings& bindings,
+                        std::span<const std::byte> push_constants, std::uint32_t groups);
   template <class Constants>
-  absl::Status dispatch(const Pipeline& pipeline, const Bindings& bindings, const Constants& constants,
+  absl::Status dispatch(const SharedPipeline& pipeline, const Bindings& bindings, const Constants& constants,
                         std::uint32_t groups) {
     return dispatch(pipeline, bindings, std::as_bytes(std::span(&constants, 1)), groups);
   }
+  // A dispatch of no workgroup, which makes a driver compile the pipeline if it has not. `any` is bound everywhere.
+  absl::Status dispatch_nothing(const SharedPipeline& pipeline, const Buffer& any);
   // What follows sees what came before.
   void barrier();
   void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset, std::size_t bytes);
@@ -52,6 +54,8 @@ class Commands {
   struct Impl;
 
  private:
+  absl::Status record(const SharedPipeline& pipeline, const Bindings& bindings,
+                      std::span<const std::byte> push_constants, std::uint32_t groups);
   // Waits, and leaves it to be used again.
   struct Release {
     void operator()(Impl* impl) const;

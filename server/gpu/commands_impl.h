@@ -1,6 +1,7 @@
 // Private to this room: what Commands hold.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "gpu/commands.h"
@@ -21,6 +22,7 @@ struct Commands::Impl {
   vk::raii::CommandBuffer buffer;
   vk::raii::Fence fence;
   std::vector<vk::raii::DescriptorPool> set_pools;
+  std::vector<SharedPipeline> pipelines;  // of the dispatches
   std::uint32_t sets_left = 0;  // in the last pool
   bool has_work = false;
   bool is_submitted = false;

@@ -1,29 +1,45 @@
 #include "gpu/pipeline.h"
 
+#include "gpu/buffer.h"
+#include "gpu/commands.h"
 #include "gpu/device_impl.h"
 #include "gpu/pipeline_impl.h"
 
 namespace isofield::gpu {
+namespace {
+
+// A driver that runs kernels on the CPU may put the compilation off until the first dispatch. lavapipe does, and then
+// compiles on the thread that serves all submissions.
+absl::Status compile_now(Device& device, const SharedPipeline& pipeline) {
+  absl::StatusOr<Buffer> any = Buffer::create(device, kUniformAlignment, Buffer::Use::kDevice);
+  if (!any.ok()) return any.status();
+  absl::StatusOr<Commands> commands = Commands::begin(device);
+  if (!commands.ok()) return commands.status();
+  if (absl::Status s = commands->dispatch_nothing(pipeline, *any); !s.ok()) return s;
+  if (absl::Status s = commands->submit(); !s.ok()) return s;
+  return commands->wait();
+}
+
+}  // namespace
 
 Pipeline::Pipeline(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Pipeline::~Pipeline() = default;
 
-absl::StatusOr<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, std::span<const std::uint32_t> spirv,
-                                                           std::span<const std::uint32_t> constants) {
+absl::StatusOr<SharedPipeline> Pipeline::create(Device& device, std::span<const std::uint32_t> spirv) {
   Device::Impl& d = device.impl();
+  SharedPipeline pipeline;
   try {
     const vk::raii::ShaderModule module(*d.device, vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
-    std::vector<vk::SpecializationMapEntry> entries;
-    for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, 4 * i, 4);
-    const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                                constants.size_bytes(), constants.data());
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
-                                                  &specialization);
-    return std::unique_ptr<Pipeline>(new Pipeline(std::make_unique<Impl>(
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
+    pipeline.reset(new Pipeline(std::make_unique<Impl>(
         Impl{vk::raii::Pipeline(*d.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, **d.pipeline_layout))})));
   } catch (const vk::SystemError& error) {
     return to_status(error, "creating a pipeline");
   }
+  if (device.description().type == "cpu") {
+    if (absl::Status s = compile_now(device, pipeline); !s.ok()) return s;
+  }
+  return pipeline;
 }
 
 }  // namespace isofield::gpu

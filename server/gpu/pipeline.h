@@ -1,4 +1,4 @@
-// A compute pipeline: an entry point with its specialisation.
+// A compute pipeline: an entry point, compiled.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -11,12 +11,14 @@
 
 namespace isofield::gpu {
 
+class Pipeline;
+using SharedPipeline = std::shared_ptr<const Pipeline>;
+
 // Immutable after creation, so usable from any thread.
 class Pipeline {
  public:
-  // `constants` are the values of specialisation constants 0, 1, 2, ... The entry point is main.
-  static absl::StatusOr<std::unique_ptr<Pipeline>> create(Device& device, std::span<const std::uint32_t> spirv,
-                                                          std::span<const std::uint32_t> constants);
+  // The entry point is main. The driver has compiled it when this returns.
+  static absl::StatusOr<SharedPipeline> create(Device& device, std::span<const std::uint32_t> spirv);
   ~Pipeline();
 
   struct Impl;  // gpu/pipeline_impl.h

@@ -3,13 +3,13 @@
 #include <absl/strings/str_cat.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "engine/mesh_measure.h"
 #include "engine/mesh_simplifier.h"
 #include "engine/status_macros.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/mesh_messages.h"
+#include "rpc/mesh_progress.h"
 #include "rpc/mesh_tracking.h"
 #include "rpc/open_stream.h"
 #include "rpc/status.h"
@@ -18,10 +18,7 @@
 namespace isofield::rpc {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t kPartBytes = 1u << 20;
-constexpr auto kProgressEvery = std::chrono::milliseconds(100);
 
 // Writes an array of rows of 3 in parts. False: the client is gone.
 template <class T>
@@ -38,23 +35,6 @@ bool write_rows(grpc::ServerWriter<v1::MeshResponse>& writer, const std::vector<
 
 absl::Status client_gone() {
   return absl::CancelledError("the client is gone");
-}
-
-// Progress now and then, and whether the client still waits.
-template <class Response>
-engine::MeshCallbacks callbacks_of(grpc::ServerContext& context, grpc::ServerWriter<Response>& writer) {
-  return {
-      .progress =
-          [&writer, last = Clock::now()](double fraction) mutable {
-            const Clock::time_point now = Clock::now();
-            if (now - last < kProgressEvery) return;
-            last = now;
-            Response response;
-            response.mutable_progress()->set_fraction(fraction);
-            writer.Write(response);
-          },
-      .cancelled = [&context] { return context.IsCancelled(); },
-  };
 }
 
 // The part of the progress that meshing makes, where the mesh is simplified after that.
@@ -125,7 +105,7 @@ grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshReque
   if (!leased.ok()) return to_grpc(leased.status());
   const absl::StatusOr<Refinement> refinement = Refinement::read(*request);
   if (!refinement.ok()) return to_grpc(refinement.status());
-  const engine::MeshCallbacks callbacks = callbacks_of(*context, *writer);
+  const engine::MeshCallbacks callbacks = mesh_callbacks(*context, *writer);
   const absl::StatusOr<engine::MeshRequest> r =
       read_mesh_request(*request, *leased->scene, engine_.mesher(), limits_, callbacks.cancelled);
   if (!r.ok()) return to_grpc(r.status());
@@ -159,7 +139,7 @@ grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->mesh().scene());
   if (!leased.ok()) return to_grpc(leased.status());
   if (const absl::Status status = check_as_made(request->mesh()); !status.ok()) return to_grpc(status);
-  const engine::MeshCallbacks callbacks = callbacks_of(*context, *writer);
+  const engine::MeshCallbacks callbacks = mesh_callbacks(*context, *writer);
   absl::StatusOr<engine::MeshRequest> r =
       read_mesh_request(request->mesh(), *leased->scene, engine_.mesher(), limits_, callbacks.cancelled);
   if (!r.ok()) return to_grpc(r.status());

@@ -11,7 +11,10 @@ absl::StatusOr<StoredScene> SceneEditor::put(const std::string& name, v1::Scene 
   ISOFIELD_ASSIGN_OR_RETURN(catalog::Catalog::Put put,
                             catalog_.put(name, std::move(scene), std::move(operators), condition));
   engine_.keep(put.entry.version, lease);
-  if (put.replaced_version != 0) engine_.drop(put.replaced_version);
+  if (put.replaced_version != 0) {
+    engine_.drop(put.replaced_version);
+    if (ahead_) ahead_->edited(put.entry.scene, put.entry.operators, lease);
+  }
   return StoredScene{std::move(put.entry), std::move(lease)};
 }
 

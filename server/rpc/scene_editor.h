@@ -10,6 +10,7 @@
 
 #include "blobtree/parameter_edit.h"
 #include "catalog/catalog.h"
+#include "engine/compile_ahead.h"
 #include "engine/engine.h"
 
 namespace isofield::rpc {
@@ -22,7 +23,9 @@ struct StoredScene {
 // Thread-safe.
 class SceneEditor {
  public:
-  SceneEditor(catalog::Catalog& catalog, engine::Engine& engine) : catalog_(catalog), engine_(engine) {}
+  // `ahead` is told of scenes that are edited or replaced; null: nobody is.
+  SceneEditor(catalog::Catalog& catalog, engine::Engine& engine, engine::CompileAhead* ahead)
+      : catalog_(catalog), engine_(engine), ahead_(ahead) {}
 
   // Errors: those of the catalog. `lease`: the scene's resident form.
   absl::StatusOr<StoredScene> put(const std::string& name, v1::Scene scene, engine::SceneLease lease,
@@ -40,6 +43,7 @@ class SceneEditor {
 
   catalog::Catalog& catalog_;
   engine::Engine& engine_;
+  engine::CompileAhead* const ahead_;
   // What is resident follows what is in the catalog, step by step: or of two puts at once the first could be kept after
   // the second has dropped it, and stay for good.
   std::mutex residency_mutex_;

@@ -175,7 +175,7 @@ void bare_kernel(benchmark::State& state, const v1::Scene& scene) {
   engine::WrittenKernels& kernels = the_engine().written_kernels();
   (void)kernels.find(*lease, true, kCount);
   kernels.wait();
-  const gpu::Pipeline* const kernel = kernels.find(*lease, true, 0);
+  const gpu::SharedPipeline kernel = kernels.find(*lease, true, 0);
   if (!kernel) return state.SkipWithError("no kernel");
   const std::vector<float> xyz = random_points(kCount);
   auto session = engine::Session::begin(the_engine().device()).value();
@@ -186,7 +186,7 @@ void bare_kernel(benchmark::State& state, const v1::Scene& scene) {
   for (auto _ : state) {
     auto again = engine::Session::begin(the_engine().device()).value();
     const absl::Status s =
-        again.commands().dispatch(*kernel, lease->bindings(points, {{6, &points}, {7, &results}}), kLast, kCount / 64);
+        again.commands().dispatch(kernel, lease->bindings(points, {{6, &points}, {7, &results}}), kLast, kCount / 64);
     if (!s.ok() || !again.run().ok()) return state.SkipWithError("no run");
   }
   count_points(state, kCount);

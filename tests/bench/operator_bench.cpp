@@ -75,13 +75,13 @@ void evaluate(benchmark::State& state, int size, bool is_first = false) {
   const shaders::Spirv& shader = volume     ? shaders::kOperatorVolumeProbe
                                  : is_first ? shaders::kOperatorFirstProbe
                                             : shaders::kOperatorBlendProbe;
-  const gpu::Pipeline* kernel = d.kernels->get(shader, {.volume_set = 1}).value();
+  const gpu::SharedPipeline kernel = d.kernels->get(shader, {.volume_set = 1}).value();
   gpu::Commands::Bindings bindings{{4, &argument_buffer}, {5, &results}};
   if (volume) bindings.emplace_back(12, &volume->buffer());
   const std::array<std::uint32_t, 4> constants{kCount, 0, static_cast<std::uint32_t>(size), 0};
   for (auto _ : state) {
     auto work = gpu::Commands::begin(*d.device).value();
-    if (!work.dispatch(*kernel, bindings, constants, kCount / 64).ok() || !work.submit().ok() || !work.wait().ok()) {
+    if (!work.dispatch(kernel, bindings, constants, kCount / 64).ok() || !work.submit().ok() || !work.wait().ok()) {
       return state.SkipWithError("no dispatch");
     }
   }

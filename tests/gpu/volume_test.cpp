@@ -87,7 +87,7 @@ std::vector<Blend> look_up(const std::vector<Float4>& arguments, const engine::V
                                                static_cast<std::uint32_t>(volume ? volume->size() : 0),
                                                continuation == Continuation::kAboutOrigin};
   EXPECT_TRUE(session->commands()
-                  .dispatch(**kernel, bindings, constants, static_cast<std::uint32_t>((arguments.size() + 63) / 64))
+                  .dispatch(*kernel, bindings, constants, static_cast<std::uint32_t>((arguments.size() + 63) / 64))
                   .ok());
   EXPECT_TRUE(session->download(*result_buffer, std::span(rows)).ok());
   EXPECT_TRUE(session->run().ok());

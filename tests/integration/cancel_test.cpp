@@ -65,8 +65,8 @@ TEST_F(Cancel, ByTheClientLibraryStopsTheWork) {
   auto client = Client::connect(shared_daemon().address());
   ASSERT_TRUE(client.ok());
   double seen = -1;
-  const auto mesh = client->mesh(mesh_request(named("ball"), kTinyCell), [&](double fraction) {
-    seen = fraction;
+  const auto mesh = client->mesh(mesh_request(named("ball"), kTinyCell), [&](const v1::MeshProgress& progress) {
+    seen = progress.fraction();
     return false;
   });
   EXPECT_EQ(mesh.status().code(), absl::StatusCode::kCancelled);

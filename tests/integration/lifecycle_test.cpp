@@ -142,6 +142,8 @@ TEST(Lifecycle, HelpListsEveryOptionWithItsDefault) {
                   {"--log-level", "info"},
                   {"--drain-seconds", "10"},
                   {"--max-threads", "256"},
+                  {"--compile-ahead", "true"},
+                  {"--max-kernels", "512"},
                   {"--max-nodes", "1000000"},
                   {"--max-primitives", "1000000"},
                   {"--max-scenes", "1000"},

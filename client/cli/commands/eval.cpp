@@ -50,7 +50,7 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
         },
         [&](std::span<const float> xyz, std::span<const float> results) {
           points += xyz.size() / 3;
-          progress.show(absl::StrCat("evaluated ", points, " points"));
+          progress.show("evaluated", absl::StrCat(points, " points"));
           auto written = writer->write(xyz, results);
           return written.ok() ? written : file_error(written);
         });

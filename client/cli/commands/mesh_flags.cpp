@@ -70,8 +70,9 @@ absl::StatusOr<Mesh> MeshFlags::request(const Context& context, double& seconds)
   if (!client.ok()) return client.status();
   ProgressLine progress(!context.json);
   const auto start = std::chrono::steady_clock::now();
-  auto mesh = client->mesh(*request, [&](double fraction) {
-    progress.show(absl::StrFormat("meshing: %3.0f %%", 100 * fraction));
+  auto mesh = client->mesh(*request, [&](const v1::MeshProgress& at) {
+    const char* const stage = at.stage() == v1::MeshProgress::COMPILING_KERNELS ? "compiling kernels" : "meshing";
+    progress.show(stage, absl::StrFormat("%3.0f %%", 100 * at.fraction()));
     return true;
   });
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

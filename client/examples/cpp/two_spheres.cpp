@@ -38,8 +38,8 @@ absl::Status run(const std::string& address) {
   isofield::v1::MeshRequest request;
   *request.mutable_scene() = spheres;
   request.set_resolution(100);
-  const auto mesh = client->mesh(request, [](double fraction) {
-    std::fprintf(stderr, "\rmeshing: %3.0f %%", 100 * fraction);
+  const auto mesh = client->mesh(request, [](const isofield::v1::MeshProgress& progress) {
+    std::fprintf(stderr, "\rmeshing: %3.0f %%", 100 * progress.fraction());
     return true;  // false would cancel
   });
   if (!mesh.ok()) return mesh.status();

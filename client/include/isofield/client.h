@@ -171,8 +171,8 @@ class Client {
                                      const std::array<double, 3>& spacing, const std::array<std::uint64_t, 3>& counts,
                                      bool gradient);
 
-  // Called with the fraction done, within [0, 1], on the caller's thread; false cancels the mesh.
-  using Progress = std::function<bool(double fraction)>;
+  // Called on the caller's thread with how much is done, and with what the server is at; false cancels the mesh.
+  using Progress = std::function<bool(const v1::MeshProgress& progress)>;
   absl::StatusOr<Mesh> mesh(const v1::MeshRequest& request, const Progress& progress = {});
   // That mesh, or a part of it, by bricks: parts, of several servers if need be, join to the bytes of the whole.
   absl::StatusOr<MeshedBricks> mesh_bricks(const v1::MeshBricksRequest& request, const Progress& progress = {});

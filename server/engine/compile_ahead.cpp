@@ -1,0 +1,124 @@
+#include "engine/compile_ahead.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/likely_edits.h"
+#include "engine/mesh_request.h"
+
+namespace isofield::engine {
+namespace {
+
+constexpr int kNiceness = 19;
+// Along the longest edge: enough for every kernel to be asked for.
+constexpr std::uint32_t kCells = 24;
+// Nobody uses them again: it is the driver's cache that is filled.
+constexpr std::size_t kMostKernels = 64;
+// Beyond so many mixes of kinds all is forgotten, and compiled for again: the driver's cache makes that cheap.
+constexpr std::size_t kMostMixes = 256;
+
+}  // namespace
+
+CompileAhead::CompileAhead(gpu::DeviceOptions device, const blobtree::SceneLimits& limits,
+                           std::shared_ptr<SpecialisedKernels> specialised)
+    : device_(std::move(device)), limits_(limits), specialised_(std::move(specialised)), worker_([this] { work(); }) {}
+
+CompileAhead::~CompileAhead() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+  }
+  wanted_more_.notify_all();
+  worker_.join();
+}
+
+CompileAhead::Mix CompileAhead::mix_of(const blobtree::Tape& tape) {
+  const auto constants = KernelKind::of(tape).constants();
+  return {constants.begin(), constants.end()};
+}
+
+void CompileAhead::edited(std::shared_ptr<const v1::Scene> scene,
+                          std::shared_ptr<const blobtree::OperatorTable> operators, SceneLease lease) {
+  Mix mix = mix_of(lease->tape());
+  const std::lock_guard lock(mutex_);
+  if (seen_.size() >= kMostMixes) {
+    seen_.clear();
+    done_.clear();
+  }
+  if (!seen_.insert(std::move(mix)).second) return;
+  wanted_ = std::make_unique<Edited>(Edited{std::move(scene), std::move(operators), std::move(lease)});
+  wanted_more_.notify_one();
+}
+
+void CompileAhead::wait() {
+  std::unique_lock lock(mutex_);
+  is_idle_.wait(lock, [&] { return !wanted_ && !is_at_work_; });
+}
+
+std::uint64_t CompileAhead::mixes() const {
+  const std::lock_guard lock(mutex_);
+  return done_.size();
+}
+
+bool CompileAhead::is_over() const {
+  const std::lock_guard lock(mutex_);
+  return is_over_;
+}
+
+void CompileAhead::work() {
+  // Of this thread, on Linux, and of those that it starts: the device's.
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wanted_more_.wait(lock, [&] { return is_over_ || wanted_; });
+    if (is_over_) return;
+    const std::unique_ptr<Edited> edited = std::move(wanted_);
+    is_at_work_ = true;
+    lock.unlock();
+    compile_for(*edited);
+    lock.lock();
+    is_at_work_ = false;
+    is_idle_.notify_all();
+  }
+}
+
+void CompileAhead::compile_for(const Edited& edited) {
+  if (!engine_) {
+    absl::StatusOr<std::unique_ptr<Engine>> engine = Engine::create(
+        device_, limits_, {}, {.is_on = false, .folder = {}}, {.most = kMostKernels, .specialised = specialised_});
+    if (!engine.ok()) return;  // what the requests' device said, they have heard
+    engine_ = *std::move(engine);
+  }
+  for (const v1::Scene& likely : likely_edits(*edited.scene, edited.lease->tape())) {
+    if (is_over()) return;
+    // A scene at its limits has no room for one more node.
+    const absl::StatusOr<SceneLease> scene = engine_->make_resident(likely, *edited.operators);
+    if (!scene.ok()) continue;
+    Mix mix = mix_of((*scene)->tape());
+    {
+      const std::lock_guard lock(mutex_);
+      if (seen_.contains(mix) || !done_.insert(std::move(mix)).second) continue;
+    }
+    rehearse(*scene);
+  }
+}
+
+void CompileAhead::rehearse(const SceneLease& scene) {
+  const blobtree::Box& support = scene->tape().support;
+  const bool is_bounded = !support.empty() && support.max.x < blobtree::kMaxCoordinate;
+  MeshRequest request{.iso = scene->tape().law == operators::Law::kSigned ? 0.0 : 0.5};
+  if (!is_bounded) request.bounds = blobtree::Box{{-1, -1, -1}, {1, 1, 1}};
+  const blobtree::Box box = is_bounded ? support : *request.bounds;
+  const double longest = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+  request.cell_size = std::max(longest / kCells, least_cell_size(scene->tape(), request));
+  // What fails here fails again where somebody is told of it.
+  (void)engine_->mesher().mesh(*scene, request, {.cancelled = [this] { return is_over(); }});
+  for (const Quantity quantity : {Quantity::kValue, Quantity::kValueAndGradient}) {
+    if (!is_over()) (void)engine_->fields().prepare(*scene, quantity);
+  }
+}
+
+}  // namespace isofield::engine

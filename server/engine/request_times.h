@@ -1,0 +1,40 @@
+// How long the work of a request waits for its turn at the device, and how long the device is at it.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+
+namespace isofield::engine {
+
+// Thread-safe: the parts of one request may run on several threads.
+class RequestTimes {
+ public:
+  using Duration = std::chrono::nanoseconds;
+
+  void add_queued(Duration d) { queued_ += d.count(); }
+  void add_on_device(Duration d) { on_device_ += d.count(); }
+  Duration queued() const { return Duration(queued_); }
+  Duration on_device() const { return Duration(on_device_); }
+
+ private:
+  std::atomic<Duration::rep> queued_ = 0, on_device_ = 0;
+};
+
+// From its construction to its end, what sessions of this thread wait for is added to `times`. Scopes may be nested: the
+// innermost counts.
+class TimedScope {
+ public:
+  explicit TimedScope(RequestTimes& times) : outer_(current_) { current_ = &times; }
+  ~TimedScope() { current_ = outer_; }
+  TimedScope(const TimedScope&) = delete;
+  TimedScope& operator=(const TimedScope&) = delete;
+
+  // Null: nobody asks.
+  static RequestTimes* current() { return current_; }
+
+ private:
+  static inline thread_local RequestTimes* current_ = nullptr;
+  RequestTimes* const outer_;
+};
+
+}  // namespace isofield::engine

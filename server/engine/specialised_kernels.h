@@ -1,0 +1,46 @@
+// Kernels with what a mix of opcodes switches off left out: what drivers are given.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/spirv_store.h"
+#include "shaders/embedded.h"
+
+namespace isofield::engine {
+
+// Thread-safe. Several devices may share one.
+class SpecialisedKernels {
+ public:
+  using Kernel = std::shared_ptr<const std::vector<std::uint32_t>>;
+  // Of some 0.1 MB each.
+  static constexpr std::size_t kMostInMemory = 128;
+
+  // `folder` keeps them on disk; empty: nowhere.
+  explicit SpecialisedKernels(const std::string& folder = {}) : store_(folder) {}
+
+  absl::StatusOr<Kernel> get(const shaders::Spirv& shader, std::span<const std::uint32_t> constants);
+
+ private:
+  using Key = std::pair<const std::uint32_t*, std::vector<std::uint32_t>>;
+  struct Place {
+    Key key;
+    Kernel kernel;
+  };
+
+  const SpirvStore store_;
+  std::mutex mutex_;
+  std::list<Place> places_;  // the most recently used first
+  std::map<Key, std::list<Place>::iterator> by_key_;
+};
+
+}  // namespace isofield::engine
