@@ -18,8 +18,7 @@ namespace isofield::engine {
 
 // The likely scenes (engine/likely_edits.h) are meshed and evaluated on a device of its own, at low priority, so that
 // requests wait for none of it. What the driver compiles there it keeps on disk, where the device that serves requests
-// finds it: measured on lavapipe, a mesh of a new mix of kinds takes a tenth of the time then. Without a folder that the
-// driver can write to, nothing is gained.
+// finds it. Where the driver can write to no folder, the kernels are at least specialised already.
 //
 // Thread-safe. The device is made when the first scene is edited.
 class CompileAhead {

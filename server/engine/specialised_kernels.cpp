@@ -30,6 +30,7 @@ absl::StatusOr<SpecialisedKernels::Kernel> SpecialisedKernels::get(const shaders
       return found->second->kernel;
     }
   }
+  ++made_;
   const std::string text = text_of(shader, constants);
   auto made = std::make_shared<std::vector<std::uint32_t>>();
   if (auto kept = store_.load(text)) {

@@ -3,6 +3,7 @@
 
 #include <absl/status/statusor.h>
 
+#include <atomic>
 #include <cstdint>
 #include <list>
 #include <map>
@@ -28,6 +29,9 @@ class SpecialisedKernels {
   // `folder` keeps them on disk; empty: nowhere.
   explicit SpecialisedKernels(const std::string& folder = {}) : store_(folder) {}
 
+  // How many were not in memory.
+  std::uint64_t made() const { return made_; }
+
   absl::StatusOr<Kernel> get(const shaders::Spirv& shader, std::span<const std::uint32_t> constants);
 
  private:
@@ -38,6 +42,7 @@ class SpecialisedKernels {
   };
 
   const SpirvStore store_;
+  std::atomic<std::uint64_t> made_ = 0;
   std::mutex mutex_;
   std::list<Place> places_;  // the most recently used first
   std::map<Key, std::list<Place>::iterator> by_key_;

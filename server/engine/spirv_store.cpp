@@ -3,6 +3,7 @@
 #include <absl/strings/str_cat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>
@@ -13,6 +14,8 @@
 
 namespace isofield::engine {
 namespace {
+
+constexpr char kExtension[] = ".spv";
 
 // A file: this head, the text, the SPIR-V.
 struct Head {
@@ -33,8 +36,41 @@ Head head_of(std::string_view text, std::string_view spirv) {
 
 }  // namespace
 
+SpirvStore::SpirvStore(std::filesystem::path folder, std::uintmax_t most_bytes)
+    : folder_(std::move(folder)), most_bytes_(most_bytes) {
+  if (!folder_.empty()) prune();
+}
+
+void SpirvStore::prune() const {
+  struct Kept {
+    std::filesystem::file_time_type used;
+    std::uintmax_t bytes;
+    std::filesystem::path path;
+  };
+  std::vector<Kept> files;
+  std::uintmax_t total = 0;
+  // Others may remove files meanwhile: what cannot be asked is left out.
+  std::error_code error;
+  for (auto it = std::filesystem::directory_iterator(folder_, error); !error && it != std::filesystem::end(it);
+       it.increment(error)) {
+    std::error_code gone;
+    if (it->path().extension() != kExtension) continue;
+    Kept file{it->last_write_time(gone), 0, it->path()};
+    if (!gone) file.bytes = it->file_size(gone);
+    if (gone) continue;
+    total += file.bytes;
+    files.push_back(std::move(file));
+  }
+  if (total <= most_bytes_) return;
+  std::sort(files.begin(), files.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; });
+  for (const Kept& file : files) {
+    if (total <= most_bytes_) break;
+    if (std::filesystem::remove(file.path, error)) total -= file.bytes;
+  }
+}
+
 std::filesystem::path SpirvStore::path_of(std::string_view text) const {
-  return folder_ / absl::StrCat(absl::Hex(shaders::hash_of(text), absl::kZeroPad16), ".spv");
+  return folder_ / absl::StrCat(absl::Hex(shaders::hash_of(text), absl::kZeroPad16), kExtension);
 }
 
 std::optional<std::vector<std::uint32_t>> SpirvStore::load(std::string_view text) const {
@@ -47,6 +83,8 @@ std::optional<std::vector<std::uint32_t>> SpirvStore::load(std::string_view text
   const Head expected = head_of(text, spirv);
   if (std::memcmp(content.data(), &expected, sizeof(expected)) != 0) return std::nullopt;
   if (std::string_view(content).substr(sizeof(Head), text.size()) != text) return std::nullopt;
+  std::error_code error;  // a folder that cannot be written to is read all the same
+  std::filesystem::last_write_time(path_of(text), std::filesystem::file_time_type::clock::now(), error);
   std::vector<std::uint32_t> words(spirv.size() / sizeof(std::uint32_t));
   std::memcpy(words.data(), spirv.data(), spirv.size());
   return words;
@@ -71,6 +109,9 @@ void SpirvStore::save(std::string_view text, const std::vector<std::uint32_t>& s
   }
   if (is_written) std::filesystem::rename(partial, path, error);
   if (!is_written || error) std::filesystem::remove(partial, error);
+  if ((saved_bytes_ += sizeof(head) + text.size() + 4 * spirv.size()) < most_bytes_ / 16) return;
+  saved_bytes_ = 0;
+  prune();
 }
 
 }  // namespace isofield::engine

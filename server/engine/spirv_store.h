@@ -1,6 +1,7 @@
 // Compiled kernels on disk, by the text that they were compiled from.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -13,8 +14,11 @@ namespace isofield::engine {
 // folder.
 class SpirvStore {
  public:
-  // Empty: keeps nothing.
-  explicit SpirvStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  static constexpr std::uintmax_t kMostBytes = std::uintmax_t{256} << 20;
+
+  // Empty: keeps nothing. Of a folder that holds more than `most_bytes` the files that were read or written longest ago
+  // are removed: now, and again each time that a sixteenth of it has been saved.
+  explicit SpirvStore(std::filesystem::path folder, std::uintmax_t most_bytes = kMostBytes);
 
   // Nothing where there is no such file, or where it is cut short, changed, or of another text.
   std::optional<std::vector<std::uint32_t>> load(std::string_view text) const;
@@ -23,8 +27,11 @@ class SpirvStore {
 
  private:
   std::filesystem::path path_of(std::string_view text) const;
+  void prune() const;
 
-  std::filesystem::path folder_;
+  const std::filesystem::path folder_;
+  const std::uintmax_t most_bytes_;
+  mutable std::atomic<std::uintmax_t> saved_bytes_ = 0;  // since the last prune()
 };
 
 }  // namespace isofield::engine

@@ -17,6 +17,7 @@
 #include "gpu/operator_cases.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
+#include "support/temporary_folder.h"
 
 namespace isofield::gpu_test {
 namespace {
@@ -71,21 +72,10 @@ v1::Scene two_spheres(double radius, const std::string& opening = "CAMEL") {
                                                    opening, R"("}}}])"));
 }
 
-class Folder {
- public:
-  Folder() : path_(std::filesystem::path(testing::TempDir()) / absl::StrCat("isofield_kernels_", getpid())) {
-    std::filesystem::remove_all(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path only_file() const {
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path_), {}), 1);
-    return std::filesystem::directory_iterator(path_)->path();
-  }
-  std::string path() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
-};
+std::filesystem::path only_file(const test_support::TemporaryFolder& folder) {
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  return std::filesystem::directory_iterator(folder.path())->path();
+}
 
 TEST(WrittenKernels, AgreeWithTheInterpreterOnRandomScenes) {
   WrittenKernels written(device(), {});
@@ -218,7 +208,7 @@ TEST(WrittenKernels, NeverOfLongTapesNorWhereTheyAreOff) {
 }
 
 TEST(WrittenKernels, AreKeptOnDisk) {
-  const Folder folder;
+  const test_support::TemporaryFolder folder;
   const engine::SceneLease scene = resident(two_spheres(0.5));
   const std::vector<float> xyz = random_points(5, 200);
   const std::vector<float> expected = evaluate(*scene, xyz, Quantity::kValueAndGradient, nullptr);
@@ -231,7 +221,7 @@ TEST(WrittenKernels, AreKeptOnDisk) {
   EXPECT_EQ(from_disk(), 0u);
   EXPECT_EQ(from_disk(), 1u);
   // Cut short, empty, a bit changed: compiled again, and written anew.
-  const std::filesystem::path file = folder.only_file();
+  const std::filesystem::path file = only_file(folder);
   const auto size = std::filesystem::file_size(file);
   for (const std::uintmax_t bytes : {size / 2, std::uintmax_t{5}, std::uintmax_t{0}}) {
     std::filesystem::resize_file(file, bytes);

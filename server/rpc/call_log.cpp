@@ -1,0 +1,182 @@
+#include "rpc/call_log.h"
+
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_format.h>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "isofield/v1/mesh_service.pb.h"
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield::rpc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using grpc::experimental::InterceptionHookPoints;
+
+constexpr char kPrefix[] = "/isofield.v1.";
+constexpr std::size_t kLongestName = 80;
+
+double milliseconds(Clock::duration d) {
+  return std::chrono::duration<double, std::milli>(d).count();
+}
+
+// Evaluate and EvaluateStream take and give bytes, on whichever thread is free, and note for themselves what they do.
+bool is_of_messages(std::string_view method) {
+  return !absl::EndsWith(method, "/Evaluate") && !absl::EndsWith(method, "/EvaluateStream");
+}
+
+// What a request names: its scene, or what is called "name"; and how much of what it asks for.
+void note_request(const Message& request, CallNotes& notes) {
+  const google::protobuf::Reflection& reflection = *request.GetReflection();
+  std::vector<const FieldDescriptor*> fields;
+  reflection.ListFields(request, &fields);
+  for (const FieldDescriptor* field : fields) {
+    const std::string& name = field->name();
+    if (name == "name" && field->type() == FieldDescriptor::TYPE_STRING) {
+      notes.set_subject(reflection.GetString(request, field));
+    } else if (name == "counts" && field->cpp_type() == FieldDescriptor::CPPTYPE_UINT64) {
+      std::uint64_t points = 1;
+      for (int i = 0; i < reflection.FieldSize(request, field); ++i) {
+        points *= reflection.GetRepeatedUInt64(request, field, i);
+      }
+      notes.add_work("points", points);
+    } else if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE || field->is_repeated()) {
+      continue;
+    } else if (field->message_type() == v1::SceneRef::descriptor()) {
+      const auto& scene = static_cast<const v1::SceneRef&>(reflection.GetMessage(request, field));
+      notes.set_subject(scene.has_inline_() ? "(inline)" : scene.name());
+    } else if (field->message_type() == v1::MeshRequest::descriptor()) {
+      note_request(reflection.GetMessage(request, field), notes);
+    } else if (field->message_type() == v1::Tensor::descriptor() && name != "directions") {
+      const auto& tensor = static_cast<const v1::Tensor&>(reflection.GetMessage(request, field));
+      if (tensor.shape_size() > 0) notes.add_work(name == "origins" ? "rays" : "points", tensor.shape(0));
+    }
+  }
+}
+
+// Meshes say at their end how many cells they took.
+void note_response(const Message& response, CallNotes& notes) {
+  const FieldDescriptor* const summary = response.GetDescriptor()->FindFieldByName("summary");
+  if (!summary || summary->message_type() != v1::MeshSummary::descriptor()) return;
+  const google::protobuf::Reflection& reflection = *response.GetReflection();
+  if (!reflection.HasField(response, summary)) return;
+  notes.add_work("cells", static_cast<const v1::MeshSummary&>(reflection.GetMessage(response, summary)).cells());
+}
+
+std::string outcome_text(const grpc::Status& status) {
+  if (status.ok()) return "OK";
+  return absl::StrCat(absl::StatusCodeToString(static_cast<absl::StatusCode>(status.error_code())), ": ",
+                      status.error_message());
+}
+
+}  // namespace
+
+void CallNotes::set_subject(std::string name) {
+  const std::lock_guard lock(mutex_);
+  // A log has a line for a call, whatever its client sends.
+  for (char& c : name) c = c > ' ' && c < 0x7f ? c : '?';
+  if (name.size() > kLongestName) name.replace(kLongestName, std::string::npos, "...");
+  subject_ = std::move(name);
+}
+
+void CallNotes::add_work(const char* unit, std::uint64_t count) {
+  const std::lock_guard lock(mutex_);
+  work_[unit] += count;
+}
+
+std::string CallNotes::text() const {
+  const std::lock_guard lock(mutex_);
+  std::string text;
+  if (!subject_.empty()) absl::StrAppend(&text, " scene=", subject_);
+  for (const auto& [unit, count] : work_) absl::StrAppend(&text, " ", unit, "=", count);
+  return text;
+}
+
+// From the call's coming to its end. Of a method of messages all happens on the thread that handles it.
+class CallLog::Call final : public grpc::experimental::Interceptor {
+ public:
+  Call(CallLog& log, grpc::experimental::ServerRpcInfo& info)
+      : log_(log), context_(info.server_context()), method_(info.method()), id_(++log.last_id_) {
+    const std::lock_guard lock(log_.mutex_);
+    log_.running_[context_] = &notes_;
+  }
+  ~Call() override {
+    {
+      const std::lock_guard lock(log_.mutex_);
+      log_.running_.erase(context_);
+    }
+    if (start_ == Clock::time_point()) return;  // it never came: the server is shut down
+    log_.sink_(absl::StrFormat("call %d %s%s: queue %.1f ms, device %.1f ms, transfer %.1f ms, total %.1f ms, %s", id_,
+                               method_.substr(sizeof(kPrefix) - 1), notes_.text(),
+                               milliseconds(notes_.times().queued()), milliseconds(notes_.times().on_device()),
+                               milliseconds(transfer_), milliseconds(Clock::now() - start_), outcome_));
+  }
+
+  void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
+    const auto is_at = [&](InterceptionHookPoints point) { return methods->QueryInterceptionHookPoint(point); };
+    if (is_at(InterceptionHookPoints::POST_RECV_INITIAL_METADATA)) {
+      start_ = Clock::now();
+      if (is_of_messages(method_)) timed_.emplace(notes_.times());
+    }
+    if (is_at(InterceptionHookPoints::POST_RECV_MESSAGE) && is_of_messages(method_) && methods->GetRecvMessage()) {
+      note_request(*static_cast<const Message*>(methods->GetRecvMessage()), notes_);
+    }
+    if (is_at(InterceptionHookPoints::PRE_SEND_MESSAGE)) {
+      sending_since_ = Clock::now();
+      if (is_of_messages(method_) && methods->GetSendMessage()) {
+        note_response(*static_cast<const Message*>(methods->GetSendMessage()), notes_);
+      }
+    }
+    if (is_at(InterceptionHookPoints::POST_SEND_MESSAGE)) transfer_ += Clock::now() - sending_since_;
+    if (is_at(InterceptionHookPoints::PRE_SEND_STATUS)) {
+      timed_.reset();
+      outcome_ = outcome_text(methods->GetSendStatus());
+    }
+    methods->Proceed();
+  }
+
+ private:
+  CallLog& log_;
+  const grpc::ServerContextBase* const context_;
+  const std::string_view method_;
+  const std::uint64_t id_;
+  CallNotes notes_;
+  std::optional<engine::TimedScope> timed_;
+  Clock::time_point start_, sending_since_;
+  Clock::duration transfer_{0};
+  std::string outcome_ = "the client is gone";
+};
+
+class CallLog::Calls final : public grpc::experimental::ServerInterceptorFactoryInterface {
+ public:
+  explicit Calls(CallLog& log) : log_(log) {}
+  grpc::experimental::Interceptor* CreateServerInterceptor(grpc::experimental::ServerRpcInfo* info) override {
+    return absl::StartsWith(info->method(), kPrefix) ? new Call(log_, *info) : nullptr;
+  }
+
+ private:
+  CallLog& log_;
+};
+
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> CallLog::interceptors() {
+  return std::make_unique<Calls>(*this);
+}
+
+CallNotes* CallLog::notes_of(const grpc::ServerContextBase& context) const {
+  if (!is_on()) return nullptr;
+  const std::lock_guard lock(mutex_);
+  const auto found = running_.find(&context);
+  return found == running_.end() ? nullptr : found->second;
+}
+
+}  // namespace isofield::rpc
