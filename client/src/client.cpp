@@ -10,11 +10,6 @@
 #include "client_impl.h"
 
 namespace isofield {
-namespace {
-
-constexpr int kMaxMessageBytes = 64 << 20;
-
-}  // namespace
 
 Client::Client(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Client::Client(Client&&) noexcept = default;
@@ -27,7 +22,7 @@ absl::StatusOr<Client> Client::connect(const std::string& address, const ClientO
   if (options.attempts < 1) return absl::InvalidArgumentError("ClientOptions::attempts: expected at least 1");
 
   grpc::ChannelArguments arguments;
-  arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
+  arguments.SetMaxReceiveMessageSize(kMaxAnswerBytes);
   arguments.SetMaxSendMessageSize(-1);  // the server states its own limit
   // The daemon is a neighbour, not a web site: a proxy of the environment would only be in the way.
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
@@ -67,23 +62,39 @@ absl::StatusOr<v1::GetSceneResponse> Client::get_scene(const std::string& name) 
   v1::GetSceneRequest request;
   request.set_name(name);
   v1::GetSceneResponse response;
-  const auto status = impl_->retry([&] {
-    return impl_->call(
-        [&](grpc::ClientContext* context) { return impl_->scenes->GetScene(context, request, &response); });
-  });
-  if (!status.ok()) return status;
+  const auto attempt = [&] {
+    std::string bytes;
+    const absl::Status status = impl_->call([&](grpc::ClientContext* context) {
+      bytes.clear();
+      const auto stream = impl_->scenes->GetSceneParts(context, request);
+      v1::ScenePart part;
+      while (stream->Read(&part)) {
+        if (part.has_summary()) *response.mutable_summary() = std::move(*part.mutable_summary());
+        bytes += part.data();
+      }
+      return stream->Finish();
+    });
+    if (!status.ok() || response.mutable_scene()->ParseFromString(bytes)) return status;
+    return absl::InternalError(absl::StrCat("the server sent ", bytes.size(), " bytes that are no scene"));
+  };
+  if (const absl::Status status = impl_->retry(attempt); !status.ok()) return status;
   return response;
 }
 
 absl::StatusOr<std::vector<v1::SceneSummary>> Client::list_scenes() {
+  std::vector<v1::SceneSummary> all;
+  v1::ListScenesRequest request;
   v1::ListScenesResponse response;
-  const auto status = impl_->retry([&] {
-    return impl_->call([&](grpc::ClientContext* context) {
-      return impl_->scenes->ListScenes(context, v1::ListScenesRequest(), &response);
+  do {
+    const auto status = impl_->retry([&] {
+      return impl_->call(
+          [&](grpc::ClientContext* context) { return impl_->scenes->ListScenes(context, request, &response); });
     });
-  });
-  if (!status.ok()) return status;
-  return std::vector<v1::SceneSummary>(response.scenes().begin(), response.scenes().end());
+    if (!status.ok()) return status;
+    all.insert(all.end(), response.scenes().begin(), response.scenes().end());
+    if (!all.empty()) request.set_after(all.back().name());
+  } while (response.has_more() && !response.scenes().empty());
+  return all;
 }
 
 absl::Status Client::delete_scene(const std::string& name) {

@@ -61,6 +61,7 @@ class StreamedEvaluation {
     v1::EvaluateStreamRequest request;
     *request.mutable_scene() = scene;
     request.set_quantity(quantity_of(gradient));
+    request.set_max_answer_bytes(kMaxAnswerBytes);
     for (std::size_t number = 0;; ++number) {
       Chunk chunk;
       source_status_ = source(chunk);
@@ -91,6 +92,7 @@ class StreamedEvaluation {
       if (!stream_->Write(request)) return;  // the stream is broken: Finish() tells why
       request.clear_scene();
       request.clear_quantity();
+      request.clear_max_answer_bytes();
     }
   }
 
@@ -113,12 +115,14 @@ class StreamedEvaluation {
 
   absl::Status read_all(std::uint64_t columns, const Client::ResultSink& sink) {
     v1::EvaluateResponse response;
-    for (std::size_t number = 0; stream_->Read(&response); ++number) {
+    std::size_t number = 0;    // of the chunk
+    std::size_t answered = 0;  // points of it
+    while (stream_->Read(&response)) {
       std::span<const float> xyz;
       {
         const std::lock_guard lock(mutex_);
         if (in_flight_.empty()) return absl::InternalError("the server answered more chunks than were sent");
-        xyz = in_flight_.front().xyz;  // the front stays where it is
+        xyz = in_flight_.front().xyz.subspan(3 * answered);  // the front stays where it is
       }
       std::span<const float> results;
       if (memory_) {
@@ -129,11 +133,16 @@ class StreamedEvaluation {
         if (!received.ok()) return received.status();
         results = *received;
       }
-      if (results.size() / columns != xyz.size() / 3) {
-        return absl::InternalError(absl::StrCat("the server answered ", results.size() / columns, " of ",
-                                                xyz.size() / 3, " points of a chunk"));
+      const std::size_t points = results.size() / columns;
+      if (points == 0 || points > xyz.size() / 3) {
+        return absl::InternalError(
+            absl::StrCat("the server answered ", points, " of the ", xyz.size() / 3, " points of a chunk"));
       }
-      if (auto status = sink(xyz, results); !status.ok()) return status;
+      if (auto status = sink(xyz.first(3 * points), results); !status.ok()) return status;
+      answered += points;
+      if (3 * points < xyz.size()) continue;
+      answered = 0;
+      ++number;
       {
         const std::lock_guard lock(mutex_);
         in_flight_.pop_front();
@@ -208,6 +217,7 @@ absl::Status Client::Impl::evaluate_message(const v1::SceneRef& scene, std::span
   v1::EvaluateRequest request;
   *request.mutable_scene() = scene;
   request.set_quantity(quantity_of(gradient));
+  request.set_max_answer_bytes(kMaxAnswerBytes);
   set_points(xyz, *request.mutable_points());
   v1::EvaluateResponse response;
   auto status = retry([&] {
@@ -263,6 +273,7 @@ absl::StatusOr<Grid> Client::evaluate_grid(const v1::SceneRef& scene, const std:
   v1::EvaluateGridRequest request;
   *request.mutable_scene() = scene;
   request.set_quantity(quantity_of(gradient));
+  request.set_max_answer_bytes(kMaxAnswerBytes);
   for (int axis = 0; axis < 3; ++axis) {
     request.add_origin(origin[axis]);
     request.add_spacing(spacing[axis]);
@@ -278,9 +289,10 @@ absl::StatusOr<Grid> Client::evaluate_grid(const v1::SceneRef& scene, const std:
     v1::EvaluateGridResponse response;
     absl::Status status;
     while (status.ok() && stream->Read(&response)) {
-      const std::uint64_t layer = counts[0] * counts[1] * columns;
-      if (layer == 0 || response.first_layer() * layer != grid.values.size()) {
-        status = absl::InternalError("the server sent the layers of a grid out of order");
+      // Parts of layers follow one another without a gap, as whole ones do.
+      const std::uint64_t row = response.first_layer() * counts[1] + response.first_row();
+      if ((row * counts[0] + response.first_column()) * columns != grid.values.size()) {
+        status = absl::InternalError("the server sent the parts of a grid out of order");
       } else {
         status = append_floats(response.result(), columns, grid.values);
       }

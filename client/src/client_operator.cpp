@@ -21,6 +21,7 @@ absl::StatusOr<v1::OperatorSummary> Client::put_operator(const std::string& name
 absl::StatusOr<v1::GetOperatorResponse> Client::get_operator(const std::string& name) {
   v1::GetOperatorRequest request;
   request.set_name(name);
+  request.set_max_answer_bytes(kMaxAnswerBytes);
   v1::GetOperatorResponse response;
   const auto status = impl_->retry([&] {
     return impl_->call(
@@ -31,14 +32,19 @@ absl::StatusOr<v1::GetOperatorResponse> Client::get_operator(const std::string& 
 }
 
 absl::StatusOr<std::vector<v1::OperatorSummary>> Client::list_operators() {
+  std::vector<v1::OperatorSummary> all;
+  v1::ListOperatorsRequest request;
   v1::ListOperatorsResponse response;
-  const auto status = impl_->retry([&] {
-    return impl_->call([&](grpc::ClientContext* context) {
-      return impl_->operators->ListOperators(context, v1::ListOperatorsRequest(), &response);
+  do {
+    const auto status = impl_->retry([&] {
+      return impl_->call(
+          [&](grpc::ClientContext* context) { return impl_->operators->ListOperators(context, request, &response); });
     });
-  });
-  if (!status.ok()) return status;
-  return std::vector<v1::OperatorSummary>(response.operators().begin(), response.operators().end());
+    if (!status.ok()) return status;
+    all.insert(all.end(), response.operators().begin(), response.operators().end());
+    if (!all.empty()) request.set_after(all.back().name());
+  } while (response.has_more() && !response.operators().empty());
+  return all;
 }
 
 absl::Status Client::delete_operator(const std::string& name) {
@@ -57,6 +63,7 @@ absl::StatusOr<OperatorValues> Client::evaluate_operator(v1::EvaluateOperatorReq
         absl::StrCat(arguments.size(), " numbers; expected a multiple of the ", request.columns_size(), " columns"));
   }
   const std::size_t rows = arguments.size() / width;
+  request.set_max_answer_bytes(kMaxAnswerBytes);
   OperatorValues all;
   // Without rows too one message goes: the server checks the operator and the columns.
   for (std::size_t first = 0; first == 0 || first < rows; first += kChunkPoints) {

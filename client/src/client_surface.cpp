@@ -82,6 +82,7 @@ absl::StatusOr<RayHits> Client::cast_rays(v1::CastRaysRequest request, std::span
     return absl::InvalidArgumentError(absl::StrCat("directions: ", directions.size(),
                                                    " coordinates; expected as many as the origins', ", origins.size()));
   }
+  request.set_max_answer_bytes(kMaxAnswerBytes);
   RayHits hits;
   std::map<std::string, std::uint32_t> places;
   const auto status = in_parts(origins.size() / 3, [&](std::size_t first, std::size_t count) {
@@ -104,6 +105,7 @@ absl::StatusOr<RayHits> Client::cast_rays(v1::CastRaysRequest request, std::span
 
 absl::StatusOr<Projections> Client::project(v1::ProjectPointsRequest request, std::span<const float> xyz) {
   if (auto status = check_rows("points", xyz); !status.ok()) return status;
+  request.set_max_answer_bytes(kMaxAnswerBytes);
   Projections all;
   const auto status = in_parts(xyz.size() / 3, [&](std::size_t first, std::size_t count) {
     set_points(xyz.subspan(3 * first, 3 * count), *request.mutable_points());
@@ -128,6 +130,7 @@ absl::StatusOr<Projections> Client::project(v1::ProjectPointsRequest request, st
 
 absl::StatusOr<std::vector<std::uint8_t>> Client::contains(v1::ContainsRequest request, std::span<const float> xyz) {
   if (auto status = check_rows("points", xyz); !status.ok()) return status;
+  request.set_max_answer_bytes(kMaxAnswerBytes);
   std::vector<std::uint8_t> inside;
   const auto status = in_parts(xyz.size() / 3, [&](std::size_t first, std::size_t count) {
     set_points(xyz.subspan(3 * first, 3 * count), *request.mutable_points());
@@ -145,7 +148,8 @@ absl::StatusOr<std::vector<std::uint8_t>> Client::contains(v1::ContainsRequest r
   return inside;
 }
 
-absl::StatusOr<Slice> Client::slice(const v1::SliceRequest& request) {
+absl::StatusOr<Slice> Client::slice(v1::SliceRequest request) {
+  request.set_max_answer_bytes(kMaxAnswerBytes);
   v1::SliceResponse response;
   absl::Status status = impl_->retry([&] {
     return impl_->call(

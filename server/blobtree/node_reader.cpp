@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/quoted.h"
 #include "blobtree/field_reader.h"
 #include "blobtree/operator_reader.h"
 
@@ -110,7 +111,7 @@ void read_custom(const std::string& name, const OperatorTable& custom, Node& nod
     node.op = it->second;
     return;
   }
-  in.refuse("operator", absl::StrCat("'", name, "'"), "the name of a custom operator that is put before the scene");
+  in.refuse("operator", base::quoted(name), "the name of a custom operator that is put before the scene");
 }
 
 std::string kind_names() {
@@ -124,7 +125,7 @@ std::string kind_names() {
 
 std::string node_path(std::size_t index, const v1::Node& message) {
   return message.name().empty() ? absl::StrCat("nodes[", index, "]")
-                                : absl::StrCat("nodes[", index, "] '", message.name(), "'");
+                                : absl::StrCat("nodes[", index, "] ", base::quoted(message.name()));
 }
 
 std::vector<const std::string*> child_references(const v1::Node& message) {

@@ -8,6 +8,8 @@
 
 #include <set>
 
+#include "base/quoted.h"
+
 namespace isofield::blobtree {
 namespace {
 
@@ -15,7 +17,8 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
 absl::Status refuse(const ParameterEdit& edit, const std::string& why) {
-  return absl::InvalidArgumentError(absl::StrCat(edit.node, ".", edit.field, ": ", why));
+  return absl::InvalidArgumentError(absl::StrCat(base::printable(edit.node, base::kQuotedCharacters), ".",
+                                                 base::printable(edit.field, base::kQuotedCharacters), ": ", why));
 }
 
 // The message of the node's kind: what is set in the oneof.

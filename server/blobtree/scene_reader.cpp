@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "base/quoted.h"
 #include "blobtree/node_reader.h"
 #include "blobtree/operator_reader.h"
 #include "blobtree/profile_count.h"
@@ -17,20 +18,24 @@
 namespace isofield::blobtree {
 namespace {
 
+// Of a node's name and of the unit, which answers repeat.
+constexpr std::size_t kMaxNameCharacters = 256;
+
 // Names of nodes, and what "name" or "#i" refers to.
 class References {
  public:
   absl::Status add(const v1::Node& node, std::uint32_t index, const std::string& path) {
     const std::string& name = node.name();
     if (name.empty()) return absl::OkStatus();
-    if (name[0] == '#' || name.find('.') != std::string::npos || name.size() > 256) {
+    if (name[0] == '#' || name.find('.') != std::string::npos || name.size() > kMaxNameCharacters) {
       return absl::InvalidArgumentError(absl::StrCat(
-          path, ".name: expected a name of at most 256 characters that does not start with '#' and holds no '.'"));
+          path, ".name = ", base::quoted(name), ": expected a name of at most ", kMaxNameCharacters,
+          " characters that does not start with '#' and holds no '.'"));
     }
     const auto [place, added] = names_.emplace(name, index);
     if (!added) {
       return absl::InvalidArgumentError(
-          absl::StrCat(path, ".name = '", name, "': already the name of nodes[", place->second, "]"));
+          absl::StrCat(path, ".name = ", base::quoted(name), ": already the name of nodes[", place->second, "]"));
     }
     return absl::OkStatus();
   }
@@ -208,6 +213,10 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
   if (count > limits.max_nodes) {
     return absl::InvalidArgumentError(absl::StrCat("nodes: ", count, " nodes, expected at most ", limits.max_nodes));
   }
+  if (message.unit().size() > kMaxNameCharacters) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("unit = ", base::quoted(message.unit()), ": expected at most ", kMaxNameCharacters, " characters"));
+  }
   Scene scene;
   scene.nodes.resize(count);
   References references;
@@ -221,8 +230,8 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
     for (const std::string* reference : child_references(message.nodes(i))) {
       const std::optional<std::uint32_t> child = references.find(*reference, count);
       if (!child) {
-        return absl::InvalidArgumentError(absl::StrCat(scene.nodes[i].path, ": child '", *reference,
-                                                       "' is no node: expected a node's name, or #0 to #", count - 1));
+        return absl::InvalidArgumentError(absl::StrCat(scene.nodes[i].path, ": child ", base::quoted(*reference),
+                                                       " is no node: expected a node's name, or #0 to #", count - 1));
       }
       scene.nodes[i].children.push_back(*child);
     }
@@ -231,7 +240,7 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
       references.find(message.root().empty() ? absl::StrCat("#", count - 1) : message.root(), count);
   if (!root) {
     return absl::InvalidArgumentError(
-        absl::StrCat("root = '", message.root(), "' is no node: expected a node's name, or #0 to #", count - 1));
+        absl::StrCat("root = ", base::quoted(message.root()), " is no node: expected a node's name, or #0 to #", count - 1));
   }
   scene.root = *root;
   if (absl::Status s = sort_nodes(scene); !s.ok()) return s;

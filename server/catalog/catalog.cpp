@@ -2,12 +2,13 @@
 
 #include <absl/strings/str_cat.h>
 
+#include "base/quoted.h"
 #include "catalog/name.h"
 
 namespace isofield::catalog {
 absl::Status Catalog::not_found(const std::string& name) const {
   const std::string there = list_names(scenes_);
-  return absl::NotFoundError(absl::StrCat("no scene is named '", name, "'; ",
+  return absl::NotFoundError(absl::StrCat("no scene is named ", base::quoted(name), "; ",
                                           there.empty() ? "the catalog is empty" : absl::StrCat("there are ", there)));
 }
 
@@ -46,10 +47,10 @@ absl::StatusOr<Entry> Catalog::get(const std::string& name) const {
   return it->second;
 }
 
-std::vector<Entry> Catalog::list() const {
+std::vector<Entry> Catalog::list(const std::string& after) const {
   const std::lock_guard lock(mutex_);
   std::vector<Entry> entries;
-  for (const auto& [name, entry] : scenes_) entries.push_back(entry);
+  for (auto it = scenes_.upper_bound(after); it != scenes_.end(); ++it) entries.push_back(it->second);
   return entries;
 }
 

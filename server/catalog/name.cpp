@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/quoted.h"
+
 namespace isofield::catalog {
 
 absl::Status check_name(const std::string& name) {
@@ -13,7 +15,7 @@ absl::Status check_name(const std::string& name) {
       });
   if (is_name) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat("name = '", name, "': expected 1 to 128 characters of A-Z a-z 0-9 _ - . /"));
+      absl::StrCat("name = ", base::quoted(name), ": expected 1 to 128 characters of A-Z a-z 0-9 _ - . /"));
 }
 
 }  // namespace isofield::catalog

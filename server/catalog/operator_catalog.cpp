@@ -3,6 +3,8 @@
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_join.h>
 
+#include "base/quoted.h"
+#include "blobtree/node_reader.h"
 #include "catalog/built_in_operators.h"
 #include "catalog/name.h"
 
@@ -14,7 +16,7 @@ absl::Status OperatorCatalog::not_found(const std::string& name) const {
     return absl::NotFoundError(absl::StrCat("'", name, "' is a built-in operator: expected a custom one; there are ",
                                             there.empty() ? "none" : there));
   }
-  return absl::NotFoundError(absl::StrCat("no operator is named '", name, "'; there are the built-in ones ",
+  return absl::NotFoundError(absl::StrCat("no operator is named ", base::quoted(name), "; there are the built-in ones ",
                                           absl::StrJoin(built_in_names(), ", "), " and ",
                                           there.empty() ? "no custom ones" : there));
 }
@@ -50,10 +52,10 @@ absl::StatusOr<OperatorEntry> OperatorCatalog::get(const std::string& name) cons
   return it->second;
 }
 
-std::vector<OperatorEntry> OperatorCatalog::list() const {
+std::vector<OperatorEntry> OperatorCatalog::list(const std::string& after) const {
   const std::lock_guard lock(mutex_);
   std::vector<OperatorEntry> entries;
-  for (const auto& [name, entry] : operators_) entries.push_back(entry);
+  for (auto it = operators_.upper_bound(after); it != operators_.end(); ++it) entries.push_back(it->second);
   return entries;
 }
 
@@ -86,8 +88,8 @@ absl::StatusOr<std::shared_ptr<const blobtree::OperatorTable>> OperatorCatalog::
     if (it == operators_.end()) {
       const std::string there = list_names(operators_);
       return absl::InvalidArgumentError(
-          absl::StrCat("nodes[", i, "]", node.name().empty() ? "" : absl::StrCat(" '", node.name(), "'"),
-                       ".operator = '", node.custom().operator_(), "': expected a custom operator; ",
+          absl::StrCat(blobtree::node_path(i, node), ".operator = ", base::quoted(node.custom().operator_()),
+                       ": expected a custom operator; ",
                        there.empty() ? "there are none" : absl::StrCat("there are ", there)));
     }
     table->emplace(it->first, it->second.op);

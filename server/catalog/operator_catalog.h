@@ -34,7 +34,8 @@ class OperatorCatalog {
                                     std::shared_ptr<const operators::Operator> op);
   // NOT_FOUND, with the names that there are.
   absl::StatusOr<OperatorEntry> get(const std::string& name) const;
-  std::vector<OperatorEntry> list() const;
+  // Those whose names come after this one, by name.
+  std::vector<OperatorEntry> list(const std::string& after = "") const;
   absl::Status remove(const std::string& name);
   std::uint64_t size() const;
 

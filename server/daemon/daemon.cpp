@@ -24,16 +24,19 @@
 #include "daemon/socket.h"
 #include "engine/engine.h"
 #include "engine/status_macros.h"
+#include "rpc/call_log.h"
 #include "rpc/evaluate_calls.h"
 #include "rpc/evaluate_streams.h"
 #include "rpc/field_service.h"
 #include "rpc/info_service.h"
 #include "rpc/mesh_service.h"
 #include "rpc/operator_service.h"
+#include "rpc/reflection_service.h"
 #include "rpc/scene_service.h"
 #include "rpc/scene_source.h"
 #include "rpc/shared_regions.h"
 #include "rpc/surface_service.h"
+#include "rpc/unreadable_requests.h"
 
 namespace isofield::daemon {
 namespace {
@@ -80,6 +83,12 @@ sigset_t stop_signals() {
   return set;
 }
 
+std::vector<std::string> service_names() {
+  return {v1::FieldService::service_full_name(),   v1::InfoService::service_full_name(),
+          v1::MeshService::service_full_name(),    v1::OperatorService::service_full_name(),
+          v1::SceneService::service_full_name(),   v1::SurfaceService::service_full_name()};
+}
+
 // Serving; destroyed, the server goes after the calls.
 struct Running {
   std::unique_ptr<grpc::Server> server;
@@ -89,7 +98,8 @@ struct Running {
 };
 
 absl::StatusOr<Running> start_server(const Config& config, const std::vector<grpc::Service*>& services,
-                                     rpc::FieldService& field_service, rpc::SharedRegions& regions) {
+                                     rpc::FieldService& field_service, rpc::SharedRegions& regions,
+                                     rpc::CallLog& call_log) {
   ISOFIELD_RETURN_IF_ERROR(check_listen_address(config.listen));
   if (config.shared_memory && region_socket_path(config).empty()) {
     return absl::InvalidArgumentError(
@@ -116,6 +126,10 @@ absl::StatusOr<Running> start_server(const Config& config, const std::vector<grp
   quota.SetMaxThreads(config.max_threads);
   builder.SetResourceQuota(quota);
   for (grpc::Service* service : services) builder.RegisterService(service);
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+  if (call_log.is_on()) interceptors.push_back(call_log.interceptors());
+  interceptors.push_back(rpc::refuse_unreadable_requests());
+  builder.experimental().SetInterceptorCreators(std::move(interceptors));
   auto evaluate_calls = std::make_unique<rpc::EvaluateCalls>(field_service, builder.AddCompletionQueue());
   auto evaluate_streams = std::make_unique<rpc::EvaluateStreams>(field_service, builder.AddCompletionQueue());
   std::unique_ptr<grpc::Server> server = builder.BuildAndStart();
@@ -125,6 +139,8 @@ absl::StatusOr<Running> start_server(const Config& config, const std::vector<grp
                                                ": is the address this machine's, and free? (--listen HOST:PORT or "
                                                "unix:PATH)"));
   }
+  // Health can be asked for by the name of a service, too.
+  for (const std::string& name : service_names()) server->GetHealthCheckService()->SetServingStatus(name, true);
   evaluate_calls->start(std::max(config.max_threads / 8, 2));
   evaluate_streams->start(std::max(config.max_threads / 8, 2));
   if (is_unix) {
@@ -168,14 +184,20 @@ absl::Status run(const Config& config, const std::string& version) {
   rpc::SceneService scene_service(catalog, operators, *engine, editor);
   rpc::OperatorService operator_service(operators, scenes, *engine, limits);
   rpc::SharedRegions shared_regions(limits.shared);
-  rpc::FieldService field_service(scenes, *engine, limits, config.shared_memory ? &shared_regions : nullptr);
+  rpc::CallLog::Sink log_line;
+  if (spdlog::should_log(spdlog::level::debug)) log_line = [](const std::string& line) { spdlog::debug("{}", line); };
+  rpc::CallLog call_log(std::move(log_line));
+  rpc::FieldService field_service(scenes, *engine, limits, config.shared_memory ? &shared_regions : nullptr,
+                                  call_log);
   rpc::MeshService mesh_service(scenes, editor, *engine, limits);
   rpc::SurfaceService surface_service(scenes, *engine, limits);
+  rpc::ReflectionService reflection_service(service_names());
   rpc::InfoService info_service(operators, *engine, limits, version, region_socket_path(config));
   ISOFIELD_ASSIGN_OR_RETURN(const Running running, start_server(config,
                                                                 {&scene_service, &operator_service, &field_service,
-                                                                 &mesh_service, &surface_service, &info_service},
-                                                                field_service, shared_regions));
+                                                                 &mesh_service, &surface_service, &info_service,
+                                                                 &reflection_service},
+                                                                field_service, shared_regions, call_log));
   int signal = 0;
   sigwait(&signals, &signal);
   spdlog::info("{}: finishing running requests, for {} s at most", strsignal(signal), config.drain_seconds);

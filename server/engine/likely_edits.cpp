@@ -45,7 +45,7 @@ class Draft {
   // A primitive of a kind that the scene has, of which no kernel need know more.
   void add_known() {
     const auto& nodes = scene_.nodes();
-    const auto known = std::find_if(nodes.begin(), nodes.end(), is_primitive);
+    const auto known = std::find_if(nodes.begin(), nodes.end(), [&](const v1::Node& n) { return is_alike(n); });
     if (known == nodes.end()) return add_box();
     v1::Node copy = *known;
     copy.clear_name();
@@ -76,9 +76,13 @@ class Draft {
 
  private:
   static std::string reference(int node) { return absl::StrCat("#", node); }
-  static bool is_primitive(const v1::Node& node) {
-    using Kind = v1::Node::KindCase;
-    return node.kind_case() >= Kind::kSphere && node.kind_case() < Kind::kSum;
+  // A primitive that yields a field of the scene's law.
+  bool is_alike(const v1::Node& node) const {
+    const google::protobuf::FieldDescriptor* const kind = node.GetDescriptor()->FindFieldByNumber(node.kind_case());
+    const auto* const law = kind ? kind->message_type()->FindFieldByName("law") : nullptr;
+    if (!law) return false;
+    const google::protobuf::Message& primitive = node.GetReflection()->GetMessage(node, kind);
+    return (primitive.GetReflection()->GetEnumValue(primitive, law) == v1::SIGNED) == is_signed_;
   }
   static void set(const blobtree::dvec3& v, google::protobuf::RepeatedField<double>& out) {
     for (const double x : {v.x, v.y, v.z}) out.Add(x);

@@ -1,15 +1,16 @@
 #include "rpc/call_log.h"
 
+#include <absl/status/status.h>
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
+#include <absl/strings/string_view.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
 #include <algorithm>
 #include <chrono>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "isofield/v1/mesh_service.pb.h"
@@ -31,7 +32,7 @@ double milliseconds(Clock::duration d) {
 }
 
 // Evaluate and EvaluateStream take and give bytes, on whichever thread is free, and note for themselves what they do.
-bool is_of_messages(std::string_view method) {
+bool is_of_messages(absl::string_view method) {
   return !absl::EndsWith(method, "/Evaluate") && !absl::EndsWith(method, "/EvaluateStream");
 }
 
@@ -53,8 +54,7 @@ void note_request(const Message& request, CallNotes& notes) {
     } else if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE || field->is_repeated()) {
       continue;
     } else if (field->message_type() == v1::SceneRef::descriptor()) {
-      const auto& scene = static_cast<const v1::SceneRef&>(reflection.GetMessage(request, field));
-      notes.set_subject(scene.has_inline_() ? "(inline)" : scene.name());
+      notes.set_subject(static_cast<const v1::SceneRef&>(reflection.GetMessage(request, field)));
     } else if (field->message_type() == v1::MeshRequest::descriptor()) {
       note_request(reflection.GetMessage(request, field), notes);
     } else if (field->message_type() == v1::Tensor::descriptor() && name != "directions") {
@@ -80,6 +80,10 @@ std::string outcome_text(const grpc::Status& status) {
 }
 
 }  // namespace
+
+void CallNotes::set_subject(const v1::SceneRef& scene) {
+  set_subject(scene.has_inline_() ? "(inline)" : scene.name());
+}
 
 void CallNotes::set_subject(std::string name) {
   const std::lock_guard lock(mutex_);
@@ -148,7 +152,7 @@ class CallLog::Call final : public grpc::experimental::Interceptor {
  private:
   CallLog& log_;
   const grpc::ServerContextBase* const context_;
-  const std::string_view method_;
+  const absl::string_view method_;
   const std::uint64_t id_;
   CallNotes notes_;
   std::optional<engine::TimedScope> timed_;

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "engine/request_times.h"
+#include "isofield/v1/scene.pb.h"
 
 namespace isofield::rpc {
 
@@ -21,7 +22,8 @@ class CallNotes {
  public:
   engine::RequestTimes& times() { return times_; }
 
-  // The scene or operator that is asked about.
+  // The scene, or operator, that is asked about.
+  void set_subject(const v1::SceneRef& scene);
   void set_subject(std::string name);
   // "points", "rays", "cells" ...; more of the same unit are added.
   void add_work(const char* unit, std::uint64_t count);

@@ -10,7 +10,7 @@ class EvaluateCalls::Call {
   explicit Call(EvaluateCalls& calls) : calls_(calls), member_(calls.threads_), responder_(&context_) {
     context_.AsyncNotifyWhenDone(&ended_);
     grpc::ServerCompletionQueue* const queue = calls_.threads_.queue();
-    calls_.service_.RequestEvaluate(&context_, &request_, &responder_, queue, queue, &came_);
+    calls_.service_.RequestEvaluate(&context_, &incoming_, &responder_, queue, queue, &came_);
   }
 
  private:
@@ -20,8 +20,11 @@ class EvaluateCalls::Call {
       return;
     }
     new Call(calls_);
-    calls_.service_.evaluate(context_, request_, response_,
-                             [this](const grpc::Status& status) { responder_.Finish(response_, status, &answered_); });
+    calls_.service_.evaluate(context_, incoming_, request_,
+                             [this](const grpc::Status& status, const grpc::ByteBuffer& response) {
+                               if (status.ok()) return responder_.Finish(response, status, &answered_);
+                               responder_.FinishWithError(status, &answered_);
+                             });
   }
   void on_part_done() {
     if (--parts_left_ == 0) delete this;
@@ -30,9 +33,9 @@ class EvaluateCalls::Call {
   EvaluateCalls& calls_;
   const CallThreads::Member member_;
   grpc::ServerContext context_;
+  grpc::ByteBuffer incoming_;
   v1::EvaluateRequest request_;
-  v1::EvaluateResponse response_;
-  grpc::ServerAsyncResponseWriter<v1::EvaluateResponse> responder_;
+  grpc::ServerAsyncResponseWriter<grpc::ByteBuffer> responder_;
   std::atomic<int> parts_left_ = 2;
   // Ended: answered, cancelled or broken off, which only then the context knows.
   CallThreads::Event came_ = [this](bool is_ok) { on_call(is_ok); };

@@ -6,9 +6,11 @@
 #include <mutex>
 #include <optional>
 
+#include "rpc/answer_limit.h"
 #include "rpc/evaluate_arguments.h"
 #include "rpc/result_message.h"
 #include "rpc/status.h"
+#include "rpc/unreadable_requests.h"
 
 namespace isofield::rpc {
 namespace {
@@ -38,6 +40,7 @@ class EvaluateStreams::Stream {
     v1::EvaluateStreamRequest request;
     MessagePoints points;
     std::optional<ResultMessage> result;  // none: into shared memory
+    std::deque<grpc::ByteBuffer> answers;  // of the result, once the first is written: those not written yet
     bool is_done = false;
     absl::Status status;
   };
@@ -98,8 +101,12 @@ class EvaluateStreams::Stream {
   void on_written(bool is_ok) {
     Lock lock(mutex_);
     is_writing_ = false;
-    points_answered_ += work_.front()->points.points.size();
-    work_.pop_front();
+    Work& work = *work_.front();
+    work.answers.pop_front();
+    if (work.answers.empty()) {
+      points_answered_ += work.points.points.size();
+      work_.pop_front();
+    }
     if (!is_ok && !outcome_) decide(absl::CancelledError("the client is gone"));
     leave(std::move(lock));
   }
@@ -108,15 +115,17 @@ class EvaluateStreams::Stream {
 
   // The message that has come, and of the first one what it says of the stream.
   absl::Status parse(v1::EvaluateStreamRequest& request) {
-    if (!grpc::SerializationTraits<v1::EvaluateStreamRequest>::Deserialize(&incoming_, &request).ok()) {
-      return absl::InvalidArgumentError("the message cannot be read: expected an EvaluateStreamRequest");
-    }
+    if (absl::Status status = parse_request(incoming_, request); !status.ok()) return status;
     if (batch_) {
       const bool is_bare = !request.has_scene() && request.quantity() == v1::QUANTITY_UNSPECIFIED &&
-                           request.priority() == v1::PRIORITY_UNSPECIFIED;
+                           request.priority() == v1::PRIORITY_UNSPECIFIED && request.max_answer_bytes() == 0;
       if (is_bare) return absl::OkStatus();
-      return absl::InvalidArgumentError("scene, quantity and priority are stated in a stream's first message alone");
+      return absl::InvalidArgumentError(
+          "scene, quantity, priority and max_answer_bytes are stated in a stream's first message alone");
     }
+    const absl::StatusOr<AnswerLimit> limit = AnswerLimit::of_stream(request.max_answer_bytes());
+    if (!limit.ok()) return limit.status();
+    limit_ = *limit;
     absl::StatusOr<engine::PointBatch> batch = streams_.service_.begin(context_, request);
     if (!batch.ok()) return batch.status();
     batch->is_admitted = true;  // of each open stream some messages at a time
@@ -131,6 +140,9 @@ class EvaluateStreams::Stream {
     absl::StatusOr<MessagePoints> points = streams_.service_.points_of(work.request, batch.quantity);
     if (!points.ok()) return on_evaluated(work, points.status());
     work.points = *std::move(points);
+    if (CallNotes* const notes = streams_.service_.log().notes_of(context_)) {
+      notes->add_work("points", work.points.points.size());
+    }
     batch.xyz = work.points.points.xyz();
     if (work.points.result) {
       batch.out = work.points.shared_numbers();
@@ -176,8 +188,13 @@ class EvaluateStreams::Stream {
     if (!is_answer_ready || !is_writing_) return;
     Work& work = *work_.front();
     lock.unlock();
-    const grpc::Slice nothing;
-    peer_.Write(work.result ? work.result->take() : grpc::ByteBuffer(&nothing, 1), &written_);
+    if (work.answers.empty()) work.answers = answers_of(work);
+    peer_.Write(work.answers.front(), &written_);
+  }
+
+  std::deque<grpc::ByteBuffer> answers_of(Work& work) const {
+    if (!work.result) return {empty_result()};
+    return work.result->take_parts(limit_.rows(engine::components(batch_->quantity) * sizeof(float)));
   }
 
   // The same at the end of a part.
@@ -199,6 +216,7 @@ class EvaluateStreams::Stream {
 
   grpc::ByteBuffer incoming_;                // of the thread that reads
   std::optional<engine::PointBatch> batch_;  // lacks the points; from the first message on
+  AnswerLimit limit_;                        // from the first message on
   std::atomic<bool> is_over_ = false;        // the work that goes on is in vain
 
   std::mutex mutex_;

@@ -6,15 +6,23 @@
 
 #include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
+#include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
+#include "rpc/grid_parts.h"
+#include "rpc/result_message.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"
+#include "rpc/unreadable_requests.h"
 
 namespace isofield::rpc {
 namespace {
 
-// Points of one message of a grid's answer: 1 to 4 MiB.
+// Points of one message of a grid's answer, 1 to 4 MiB, where the client takes that.
 constexpr std::uint64_t kGridSlab = 1u << 18;
+
+absl::Status client_gone() {
+  return absl::CancelledError("the client is gone");
+}
 
 absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& request, const Limits& limits) {
   blobtree::Lattice lattice;
@@ -58,29 +66,65 @@ absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& re
 
 }  // namespace
 
-void FieldService::evaluate(grpc::ServerContext& context, const v1::EvaluateRequest& request,
-                            v1::EvaluateResponse& response, std::function<void(const grpc::Status&)> done) {
-  absl::StatusOr<engine::PointBatch> batch =
-      read_batch(context, scenes_, request.scene(), request.quantity(), request.priority());
-  if (!batch.ok()) return done(to_grpc(batch.status()));
-  absl::StatusOr<MessagePoints> read = read_points(PointFields(request), batch->quantity, limits_, regions_);
-  if (!read.ok()) return done(to_grpc(read.status()));
-  const auto message = std::make_shared<const MessagePoints>(*std::move(read));
-  batch->xyz = message->points.xyz();
-  batch->out = message->result ? message->shared_numbers()
-                               : make_float_tensor({message->points.size(), components(batch->quantity)},
-                                                   *response.mutable_result());
-  engine_.submit(*std::move(batch), [&context, message, done = std::move(done)](const absl::Status& status) {
+struct FieldService::Evaluation {
+  engine::PointBatch batch;
+  MessagePoints points;
+  std::optional<ResultMessage> result;  // none: into shared memory
+};
+
+template <class Request>
+absl::StatusOr<engine::PointBatch> FieldService::batch_of(const grpc::ServerContext& context,
+                                                          const Request& request) const {
+  CallNotes* const notes = log_.notes_of(context);
+  if (notes) notes->set_subject(request.scene());
+  ISOFIELD_ASSIGN_OR_RETURN(engine::PointBatch batch,
+                            read_batch(context, scenes_, request.scene(), request.quantity(), request.priority()));
+  if (notes) batch.times = &notes->times();
+  return batch;
+}
+
+absl::StatusOr<std::shared_ptr<FieldService::Evaluation>> FieldService::read(const grpc::ServerContext& context,
+                                                                             grpc::ByteBuffer& incoming,
+                                                                             v1::EvaluateRequest& request) const {
+  ISOFIELD_RETURN_IF_ERROR(parse_request(incoming, request));
+  auto evaluation = std::make_shared<Evaluation>();
+  engine::PointBatch& batch = evaluation->batch;
+  ISOFIELD_ASSIGN_OR_RETURN(batch, batch_of(context, request));
+  ISOFIELD_ASSIGN_OR_RETURN(evaluation->points, read_points(PointFields(request), batch.quantity, limits_, regions_));
+  batch.xyz = evaluation->points.points.xyz();
+  if (CallNotes* const notes = log_.notes_of(context)) notes->add_work("points", evaluation->points.points.size());
+  if (evaluation->points.result) {
+    batch.out = evaluation->points.shared_numbers();
+    return evaluation;
+  }
+  const std::uint64_t rows = evaluation->points.points.size(), columns = components(batch.quantity);
+  ISOFIELD_RETURN_IF_ERROR(check_number_rows(request.answer_in_numbers(), rows));
+  ISOFIELD_RETURN_IF_ERROR(AnswerLimit(request.max_answer_bytes())
+                               .admit(ResultMessage::bytes(rows, columns, request.answer_in_numbers()),
+                                      "send the points by EvaluateStream, which answers any number of them"));
+  evaluation->result.emplace(rows, columns);
+  batch.out = evaluation->result->numbers();
+  return evaluation;
+}
+
+void FieldService::evaluate(grpc::ServerContext& context, grpc::ByteBuffer& incoming, v1::EvaluateRequest& request,
+                            Answer done) {
+  const auto evaluation = read(context, incoming, request);
+  if (!evaluation.ok()) return done(to_grpc(evaluation.status()), grpc::ByteBuffer());
+  engine_.submit(std::move((*evaluation)->batch), [&context, &request, evaluation = *evaluation,
+                                                   done = std::move(done)](const absl::Status& status) {
     if (const auto ms = engine::retry_after_ms(status)) {
       context.AddTrailingMetadata("grpc-retry-pushback-ms", absl::StrCat(*ms));
     }
-    done(to_grpc(status));
+    if (!status.ok()) return done(to_grpc(status), grpc::ByteBuffer());
+    if (!evaluation->result) return done(grpc::Status::OK, empty_result());
+    done(grpc::Status::OK, evaluation->result->take(request.answer_in_numbers()));
   });
 }
 
 absl::StatusOr<engine::PointBatch> FieldService::begin(const grpc::ServerContext& context,
                                                        const v1::EvaluateStreamRequest& first) const {
-  return read_batch(context, scenes_, first.scene(), first.quantity(), first.priority());
+  return batch_of(context, first);
 }
 
 absl::StatusOr<MessagePoints> FieldService::points_of(const v1::EvaluateStreamRequest& request,
@@ -97,32 +141,49 @@ grpc::Status FieldService::EvaluateGrid(grpc::ServerContext* context, const v1::
   const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
 
+  const absl::StatusOr<AnswerLimit> limit = AnswerLimit::of_stream(request->max_answer_bytes());
+  if (!limit.ok()) return to_grpc(limit.status());
+
   const auto [nx, ny, nz] = lattice->cells;
   const std::uint64_t layer = std::uint64_t{nx} * ny;
-  // Whole layers of bricks are evaluated at once, at least one; of large layers a message holds fewer.
-  const std::uint64_t bricks = std::max<std::uint64_t>(kGridSlab / layer / blobtree::kBrickCells, 1);
-  const auto step = static_cast<std::uint32_t>(std::min<std::uint64_t>(bricks * blobtree::kBrickCells, nz + 3));
-  const std::uint64_t most = limits_.max_points_per_message / layer;
   const std::uint32_t width = engine::components(*quantity);
+  const std::uint64_t most =
+      std::min({limit->rows(width * sizeof(float)), limits_.max_points_per_message, kGridSlab});
+  const auto cancelled = [&] { return context->IsCancelled(); };
+  // Whole layers of bricks are evaluated at once, at least one.
+  const std::uint64_t bricks = std::max<std::uint64_t>(most / layer / blobtree::kBrickCells, 1);
+  const auto step = static_cast<std::uint32_t>(std::min<std::uint64_t>(bricks * blobtree::kBrickCells, nz + 3));
   v1::EvaluateGridResponse response;
   std::vector<float> several;  // layers that take more than one message
   for (std::uint32_t k = 0; k < nz; k += step) {
-    if (context->IsCancelled()) return {grpc::StatusCode::CANCELLED, "the client is gone"};
+    if (cancelled()) return to_grpc(client_gone());
     const std::uint32_t layers = std::min(step, nz - k);
-    for (std::uint64_t at = 0; at < layers; at += most) {
-      const std::uint64_t part = std::min<std::uint64_t>(most, layers - at);
+    if (layers * layer <= most) {
       response.Clear();
-      response.set_first_layer(k + at);
-      const std::span<float> out = make_float_tensor({part, ny, nx, width}, *response.mutable_result());
-      if (at == 0) {
-        if (part < layers) several.resize(layers * layer * width);
-        const absl::Status s = engine_.fields().evaluate_layers(*leased->scene, *lattice, k, *quantity,
-                                                                part < layers ? std::span(several) : out,
-                                                                [&] { return context->IsCancelled(); });
-        if (!s.ok()) return to_grpc(s);
-      }
-      if (part < layers) std::copy_n(several.begin() + at * layer * width, out.size(), out.begin());
-      if (!writer->Write(response)) return {grpc::StatusCode::CANCELLED, "the client is gone"};
+      response.set_first_layer(k);
+      const absl::Status s =
+          engine_.fields().evaluate_layers(*leased->scene, *lattice, k, *quantity,
+                                           make_float_tensor({layers, ny, nx, width}, *response.mutable_result()),
+                                           cancelled);
+      if (!s.ok()) return to_grpc(s);
+      if (!writer->Write(response)) return to_grpc(client_gone());
+      continue;
+    }
+    several.resize(layers * layer * width);
+    const absl::Status s =
+        engine_.fields().evaluate_layers(*leased->scene, *lattice, k, *quantity, std::span(several), cancelled);
+    if (!s.ok()) return to_grpc(s);
+    std::uint64_t written = 0;
+    for (const GridPart& part : grid_parts({nx, ny, layers}, most)) {
+      response.Clear();
+      response.set_first_layer(k + part.first[2]);
+      response.set_first_row(part.first[1]);
+      response.set_first_column(part.first[0]);
+      const auto [columns, rows, whole] = part.counts;
+      const std::span<float> out = make_float_tensor({whole, rows, columns, width}, *response.mutable_result());
+      std::copy_n(several.begin() + written, out.size(), out.begin());
+      written += out.size();
+      if (!writer->Write(response)) return to_grpc(client_gone());
     }
   }
   return grpc::Status::OK;

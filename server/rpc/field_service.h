@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "engine/engine.h"
 #include "isofield/v1/field_service.grpc.pb.h"
+#include "rpc/call_log.h"
 #include "rpc/evaluate_arguments.h"
 #include "rpc/limits.h"
 #include "rpc/scene_source.h"
@@ -13,31 +15,42 @@
 namespace isofield::rpc {
 
 // Evaluate is served by EvaluateCalls, EvaluateStream by EvaluateStreams.
-class FieldService final : public v1::FieldService::WithAsyncMethod_Evaluate<
+class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
                                v1::FieldService::WithRawMethod_EvaluateStream<v1::FieldService::Service>> {
  public:
   // `regions`: null where no memory is shared.
-  FieldService(const SceneSource& scenes, engine::Engine& engine, const Limits& limits, const SharedRegions* regions)
-      : scenes_(scenes), engine_(engine), limits_(limits), regions_(regions) {}
+  FieldService(const SceneSource& scenes, engine::Engine& engine, const Limits& limits, const SharedRegions* regions,
+               const CallLog& log)
+      : scenes_(scenes), engine_(engine), limits_(limits), regions_(regions), log_(log) {}
 
-  // Calls `done` once, on this thread or another; all arguments must live until then.
-  void evaluate(grpc::ServerContext& context, const v1::EvaluateRequest& request, v1::EvaluateResponse& response,
-                std::function<void(const grpc::Status&)> done);
+  // Takes the status, and the bytes of an EvaluateResponse where that is OK.
+  using Answer = std::function<void(const grpc::Status&, const grpc::ByteBuffer& response)>;
+  // Reads `incoming` into `request`. Calls `done` once, on this thread or another; all arguments must live until then.
+  void evaluate(grpc::ServerContext& context, grpc::ByteBuffer& incoming, v1::EvaluateRequest& request, Answer done);
   // What the first message of a stream says of all; without points.
   absl::StatusOr<engine::PointBatch> begin(const grpc::ServerContext& context,
                                            const v1::EvaluateStreamRequest& first) const;
   absl::StatusOr<MessagePoints> points_of(const v1::EvaluateStreamRequest& request, engine::Quantity quantity) const;
   engine::Engine& engine() { return engine_; }
   const Limits& limits() const { return limits_; }
+  const CallLog& log() const { return log_; }
 
   grpc::Status EvaluateGrid(grpc::ServerContext*, const v1::EvaluateGridRequest*,
                             grpc::ServerWriter<v1::EvaluateGridResponse>*) override;
 
  private:
+  struct Evaluation;
+  absl::StatusOr<std::shared_ptr<Evaluation>> read(const grpc::ServerContext& context, grpc::ByteBuffer& incoming,
+                                                   v1::EvaluateRequest& request) const;
+  // A batch that lacks its points, and is noted in the log.
+  template <class Request>
+  absl::StatusOr<engine::PointBatch> batch_of(const grpc::ServerContext& context, const Request& request) const;
+
   const SceneSource& scenes_;
   engine::Engine& engine_;
   const Limits& limits_;
   const SharedRegions* const regions_;
+  const CallLog& log_;
 };
 
 }  // namespace isofield::rpc

@@ -8,14 +8,13 @@
 #include "engine/cell_size.h"
 #include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
+#include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/tensor.h"
 
 namespace isofield::rpc {
 namespace {
 
-// Of one message; a brick holds far less.
-constexpr std::size_t kMessageBytes = 1u << 20;
 constexpr std::uint32_t kMaxResolution = 1u << 20;
 
 // Cells. Nearer, float32 leaves nothing to gain.
@@ -113,7 +112,8 @@ std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::
   std::vector<std::uint32_t> rows;
   std::size_t at = first, vertices = 0, triangles = 0;
   const std::size_t vertex_bytes = cells.normals.empty() ? 12 : 24;
-  while (at < cells.bricks.size() && vertices * vertex_bytes + triangles * 12 < kMessageBytes) {
+  // A brick holds far less than a part.
+  while (at < cells.bricks.size() && rows.size() * 4 + vertices * vertex_bytes + triangles * 12 < kPartBytes) {
     const engine::MeshBrick& b = cells.bricks[at++];
     rows.insert(rows.end(), {b.x, b.y, b.z, b.vertices, b.triangles});
     vertices += b.vertices;

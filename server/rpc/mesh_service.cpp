@@ -1,12 +1,14 @@
 #include "rpc/mesh_service.h"
 
 #include <absl/strings/str_cat.h>
+#include <grpcpp/support/method_handler.h>
 
 #include <algorithm>
 
 #include "engine/mesh_measure.h"
 #include "engine/mesh_simplifier.h"
 #include "engine/status_macros.h"
+#include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/mesh_messages.h"
 #include "rpc/mesh_progress.h"
@@ -18,19 +20,15 @@
 namespace isofield::rpc {
 namespace {
 
-constexpr std::size_t kPartBytes = 1u << 20;
-
 // Writes an array of rows of 3 in parts. False: the client is gone.
 template <class T>
 bool write_rows(grpc::ServerWriter<v1::MeshResponse>& writer, const std::vector<T>& rows,
                 v1::Tensor* (v1::MeshPart::*field)()) {
-  constexpr std::size_t kRows = kPartBytes / (3 * sizeof(T)) * 3;
-  for (std::size_t at = 0; at < rows.size(); at += kRows) {
+  return in_parts(std::span<const T>(rows), 3, [&](std::span<const T> part) {
     v1::MeshResponse response;
-    set_rows(std::span(rows).subspan(at, std::min(kRows, rows.size() - at)), 3, *(response.mutable_part()->*field)());
-    if (!writer.Write(response)) return false;
-  }
-  return true;
+    set_rows(part, 3, *(response.mutable_part()->*field)());
+    return writer.Write(response);
+  });
 }
 
 absl::Status client_gone() {
@@ -162,14 +160,26 @@ grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::
   return writer->Write(response) ? grpc::Status::OK : to_grpc(client_gone());
 }
 
-grpc::Status MeshService::TrackMesh(grpc::ServerContext* context, TrackMeshStream* stream) {
+MeshService::MeshService(const SceneSource& scenes, SceneEditor& editor, engine::Engine& engine, const Limits& limits)
+    : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits) {
+  const int method =
+      v1::TrackMeshRequest::descriptor()->file()->FindServiceByName("MeshService")->FindMethodByName("TrackMesh")->index();
+  MarkMethodStreamed(method, new grpc::internal::BidiStreamingHandler<MeshService, grpc::ByteBuffer,
+                                                                      v1::TrackMeshResponse>(
+                                 [](MeshService* service, grpc::ServerContext* context, TrackMeshStream* stream) {
+                                   return service->track_mesh(*context, *stream);
+                                 },
+                                 this));
+}
+
+grpc::Status MeshService::track_mesh(grpc::ServerContext& context, TrackMeshStream& stream) {
   const OpenStream open(tracked_);
   if (open.count() > limits_.max_tracked_meshes) {
     return to_grpc(absl::ResourceExhaustedError(absl::StrCat(
         limits_.max_tracked_meshes,
         " meshes are tracked, as many as are admitted (an eighth of --max-threads): end one, or try again")));
   }
-  return to_grpc(MeshTracking(scenes_, editor_, engine_, limits_, *context, *stream).run());
+  return to_grpc(MeshTracking(scenes_, editor_, engine_, limits_, context, stream).run());
 }
 
 grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRequest* request,

@@ -14,16 +14,17 @@ namespace isofield::rpc {
 
 class MeshService final : public v1::MeshService::Service {
  public:
-  MeshService(const SceneSource& scenes, SceneEditor& editor, engine::Engine& engine, const Limits& limits)
-      : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits) {}
+  MeshService(const SceneSource& scenes, SceneEditor& editor, engine::Engine& engine, const Limits& limits);
 
   grpc::Status Mesh(grpc::ServerContext*, const v1::MeshRequest*, grpc::ServerWriter<v1::MeshResponse>*) override;
   grpc::Status GetMeshBricks(grpc::ServerContext*, const v1::MeshBricksRequest*,
                              grpc::ServerWriter<v1::MeshBricksResponse>*) override;
-  grpc::Status TrackMesh(grpc::ServerContext*, TrackMeshStream*) override;
   grpc::Status Measure(grpc::ServerContext*, const v1::MeshRequest*, v1::MeasureResponse*) override;
 
  private:
+  // TrackMesh, which takes its requests as bytes: of messages gRPC would not tell an unreadable one from the end.
+  grpc::Status track_mesh(grpc::ServerContext& context, TrackMeshStream& stream);
+
   const SceneSource& scenes_;
   SceneEditor& editor_;
   engine::Engine& engine_;

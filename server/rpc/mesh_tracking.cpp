@@ -2,14 +2,19 @@
 
 #include <absl/strings/str_cat.h>
 
+#include "base/quoted.h"
 #include "engine/status_macros.h"
+#include "rpc/answer_limit.h"
 #include "rpc/tensor.h"
+#include "rpc/unreadable_requests.h"
 
 namespace isofield::rpc {
 
 absl::Status MeshTracking::run() {
+  grpc::ByteBuffer incoming;
   v1::TrackMeshRequest request;
-  while (stream_.Read(&request)) {
+  while (stream_.Read(&incoming)) {
+    ISOFIELD_RETURN_IF_ERROR(parse_request(incoming, request));
     if (tracker_) {
       ISOFIELD_RETURN_IF_ERROR(follow(request));
     } else if (request.message_case() == v1::TrackMeshRequest::kBegin) {
@@ -39,8 +44,9 @@ absl::Status MeshTracking::follow(const v1::TrackMeshRequest& request) {
     case v1::TrackMeshRequest::kEdit: {
       const v1::EditParametersRequest& edit = request.edit();
       if (!edit.name().empty() && edit.name() != scene_.name()) {
-        return absl::InvalidArgumentError(absl::StrCat("edit.name = '", edit.name(), "': expected none, or the name '",
-                                                       scene_.name(), "' of the scene that this stream follows"));
+        return absl::InvalidArgumentError(absl::StrCat("edit.name = ", base::quoted(edit.name()),
+                                                       ": expected none, or the name ", base::quoted(scene_.name()),
+                                                       " of the scene that this stream follows"));
       }
       ISOFIELD_ASSIGN_OR_RETURN(const StoredScene stored,
                                 editor_.edit(scene_.name(), read_edits(edit.edits()), edit.expected_version()));
@@ -63,21 +69,26 @@ absl::Status MeshTracking::answer(const LeasedScene& leased) {
   // The last message is held back until it is known to be that.
   v1::MeshUpdate next;
   next.set_is_whole(update.is_whole);
-  if (!update.removed.empty()) {
-    std::vector<std::uint32_t> rows;
-    for (const auto& brick : update.removed) rows.insert(rows.end(), brick.begin(), brick.end());
-    set_rows(std::span<const std::uint32_t>(rows), 3, *next.mutable_removed());
-  }
   absl::Status status;
+  const auto write_next = [&] {
+    next.set_scene_version(leased.version);
+    status = write(std::exchange(next, {}));
+    return status.ok();
+  };
+  std::vector<std::uint32_t> removed;
+  for (const auto& brick : update.removed) removed.insert(removed.end(), brick.begin(), brick.end());
+  const bool is_sent = in_parts(std::span<const std::uint32_t>(removed), 3, [&](std::span<const std::uint32_t> rows) {
+    if (next.has_removed() && !write_next()) return false;
+    set_rows(rows, 3, *next.mutable_removed());
+    return true;
+  });
+  if (!is_sent) return status;
   for (const engine::MeshCells& cells : update.changed) {
     totals.cells += cells.cells;
     const bool written = write_bricks(cells, [&](v1::MeshBricks bricks) {
-      if (next.has_bricks()) {
-        next.set_scene_version(leased.version);
-        status = write(std::exchange(next, {}));
-      }
+      if (next.has_bricks() && !write_next()) return false;
       *next.mutable_bricks() = std::move(bricks);
-      return status.ok();
+      return true;
     });
     if (!written) return status;
   }

@@ -3,6 +3,7 @@
 
 #include <absl/status/status.h>
 #include <grpcpp/grpcpp.h>
+#include <grpcpp/support/byte_buffer.h>
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +19,8 @@
 
 namespace isofield::rpc {
 
-using TrackMeshStream = grpc::ServerReaderWriter<v1::TrackMeshResponse, v1::TrackMeshRequest>;
+// Requests are the bytes of TrackMeshRequests.
+using TrackMeshStream = grpc::ServerReaderWriter<v1::TrackMeshResponse, grpc::ByteBuffer>;
 
 class MeshTracking {
  public:

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/quoted.h"
 #include "blobtree/node_reader.h"
 #include "engine/status_macros.h"
 
@@ -129,21 +130,22 @@ absl::Status pick_opening(const FoundScene& found, const v1::PickOpeningRequest&
     }
     point[i] = static_cast<float>(request.point(i));
   }
+  const std::string name = base::quoted(request.node());
   const std::optional<int> index = find_node(*found.scene, request.node());
   if (!index) {
     return absl::InvalidArgumentError(absl::StrCat(
-        "node = '", request.node(), "' is no node: expected a node's name, or #0 to #", found.scene->nodes_size() - 1));
+        "node = ", name, " is no node: expected a node's name, or #0 to #", found.scene->nodes_size() - 1));
   }
   const auto children = blobtree::child_references(found.scene->nodes(*index));
   if (children.size() != 2) {
-    return absl::InvalidArgumentError(absl::StrCat("node = '", request.node(), "' has ", children.size(),
+    return absl::InvalidArgumentError(absl::StrCat("node = ", name, " has ", children.size(),
                                                    " children: expected a positive operator of 2"));
   }
   ISOFIELD_ASSIGN_OR_RETURN(const Sample first, sample(found, *children[0], point, engine));
   ISOFIELD_ASSIGN_OR_RETURN(const Sample second, sample(found, *children[1], point, engine));
   if (!is_positive(found, *index)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("node = '", request.node(), "' joins signed fields: expected a positive operator of 2 children"));
+        absl::StrCat("node = ", name, " joins signed fields: expected a positive operator of 2 children"));
   }
   if (!(first.f > 0)) {
     return absl::InvalidArgumentError(absl::StrCat("point = (", request.point(0), ", ", request.point(1), ", ",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/quoted.h"
 #include "engine/status_macros.h"
 #include "rpc/tensor.h"
 
@@ -47,7 +48,7 @@ std::string expected_columns(const ArgumentShape& shape) {
 absl::Status refuse_columns(const OperatorArguments::Columns& columns, const std::string& expected) {
   std::string stated;
   for (int i = 0; i < columns.size() && i < 20; ++i) {
-    absl::StrAppend(&stated, i > 0 ? ", " : "", columns[i].substr(0, 32), columns[i].size() > 32 ? "..." : "");
+    absl::StrAppend(&stated, i > 0 ? ", " : "", base::printable(columns[i], 32));
   }
   return absl::InvalidArgumentError(
       absl::StrCat("columns = [", stated, columns.size() > 20 ? ", ..." : "", "]: expected ", expected));

@@ -2,9 +2,11 @@
 
 #include <optional>
 
+#include "base/quoted.h"
 #include "blobtree/operator_reader.h"
 #include "catalog/built_in_operators.h"
 #include "engine/status_macros.h"
+#include "rpc/answer_limit.h"
 #include "rpc/opening_pick.h"
 #include "rpc/operator_arguments.h"
 #include "rpc/status.h"
@@ -12,6 +14,9 @@
 
 namespace isofield::rpc {
 namespace {
+
+// Bytes of a description in a summary.
+constexpr std::size_t kMostDescription = 1024;
 
 void fill_summary(const std::string& name, std::uint64_t version, const v1::Operator& message,
                   v1::OperatorSummary& summary) {
@@ -22,7 +27,15 @@ void fill_summary(const std::string& name, std::uint64_t version, const v1::Oper
   if (shape.fields == ArgumentShape::Fields::kPositive) summary.set_law(v1::POSITIVE);
   if (shape.fields == ArgumentShape::Fields::kSigned) summary.set_law(v1::SIGNED);
   for (std::string& argument : argument_names(shape)) summary.add_arguments(std::move(argument));
-  summary.set_description(message.description());
+  summary.set_description(std::string(base::utf8_prefix(message.description(), kMostDescription)));
+}
+
+constexpr char kFewerRows[] = "ask for fewer rows";
+
+// Before the evaluation.
+absl::Status check_answer(const v1::EvaluateOperatorRequest& request, std::uint64_t rows, std::uint64_t columns) {
+  ISOFIELD_RETURN_IF_ERROR(check_number_rows(request.answer_in_numbers(), rows));
+  return AnswerLimit(request.max_answer_bytes()).admit(rows * columns * sizeof(float), kFewerRows);
 }
 
 void fill_summary(const catalog::OperatorEntry& entry, const engine::VolumeCache& volumes,
@@ -55,18 +68,36 @@ grpc::Status OperatorService::GetOperator(grpc::ServerContext*, const v1::GetOpe
   }
   const absl::StatusOr<catalog::OperatorEntry> entry = operators_.get(request->name());
   if (!entry.ok()) return to_grpc(entry.status());
+  // Before the operator is copied, and then with the summary.
+  const AnswerLimit limit(request->max_answer_bytes());
+  const char* const instead = "receive larger messages";
+  if (absl::Status s = limit.admit(entry->message->ByteSizeLong(), instead); !s.ok()) return to_grpc(s);
   fill_summary(*entry, engine_.volumes(), *response->mutable_summary());
   *response->mutable_operator_() = *entry->message;
-  return grpc::Status::OK;
+  return to_grpc(limit.admit(response->ByteSizeLong(), instead));
 }
 
-grpc::Status OperatorService::ListOperators(grpc::ServerContext*, const v1::ListOperatorsRequest*,
+grpc::Status OperatorService::ListOperators(grpc::ServerContext*, const v1::ListOperatorsRequest* request,
                                             v1::ListOperatorsResponse* response) {
+  AnswerPage page;
+  const auto add = [&](v1::OperatorSummary summary) {
+    if (!page.admit(summary.ByteSizeLong())) return false;
+    *response->add_operators() = std::move(summary);
+    return true;
+  };
   for (const std::string& name : catalog::built_in_names()) {
-    fill_summary(name, 0, *catalog::built_in_operator(name), *response->add_operators());
+    if (!request->after().empty()) break;
+    v1::OperatorSummary summary;
+    fill_summary(name, 0, *catalog::built_in_operator(name), summary);
+    add(std::move(summary));  // these few have room
   }
-  for (const catalog::OperatorEntry& entry : operators_.list())
-    fill_summary(entry, engine_.volumes(), *response->add_operators());
+  for (const catalog::OperatorEntry& entry : operators_.list(request->after())) {
+    v1::OperatorSummary summary;
+    fill_summary(entry, engine_.volumes(), summary);
+    if (add(std::move(summary))) continue;
+    response->set_has_more(true);
+    break;
+  }
   return grpc::Status::OK;
 }
 
@@ -83,6 +114,7 @@ absl::Status OperatorService::evaluate_opening(const v1::EvaluateOperatorRequest
       OperatorArguments::read_alphas(request.columns(), request.arguments(), limits_.max_points_per_message));
   response.add_columns("theta");
   response.add_columns("dtheta_dalpha");
+  ISOFIELD_RETURN_IF_ERROR(check_answer(request, alphas.rows(), 2));
   const std::span<float> out = make_float_tensor({alphas.rows(), 2}, *response.mutable_results());
   if (out.empty()) return absl::OkStatus();
   return engine_.operators().evaluate_opening(opening, alphas.numbers(), out);
@@ -113,6 +145,7 @@ absl::Status OperatorService::evaluate(const v1::EvaluateOperatorRequest& reques
       OperatorArguments::read(shape, request.columns(), request.arguments(), limits_.max_points_per_message));
   const std::vector<std::string> columns = arguments.result_columns();
   response.mutable_columns()->Assign(columns.begin(), columns.end());
+  ISOFIELD_RETURN_IF_ERROR(check_answer(request, arguments.rows(), columns.size()));
   const std::span<float> out = make_float_tensor({arguments.rows(), columns.size()}, *response.mutable_results());
   if (out.empty()) return absl::OkStatus();
   return engine_.operators().evaluate(op, arguments.operands(), arguments.steering(), arguments.numbers(), out);
@@ -120,7 +153,9 @@ absl::Status OperatorService::evaluate(const v1::EvaluateOperatorRequest& reques
 
 grpc::Status OperatorService::EvaluateOperator(grpc::ServerContext*, const v1::EvaluateOperatorRequest* request,
                                                v1::EvaluateOperatorResponse* response) {
-  return to_grpc(evaluate(*request, *response));
+  if (absl::Status s = evaluate(*request, *response); !s.ok()) return to_grpc(s);
+  if (request->answer_in_numbers()) write_as_numbers(*response->mutable_results());
+  return to_grpc(AnswerLimit(request->max_answer_bytes()).admit(response->ByteSizeLong(), kFewerRows));
 }
 
 grpc::Status OperatorService::PickOpening(grpc::ServerContext*, const v1::PickOpeningRequest* request,

@@ -1,6 +1,7 @@
 #include "rpc/scene_service.h"
 
 #include "engine/status_macros.h"
+#include "rpc/answer_limit.h"
 #include "rpc/status.h"
 
 namespace isofield::rpc {
@@ -47,14 +48,42 @@ grpc::Status SceneService::GetScene(grpc::ServerContext*, const v1::GetSceneRequ
                                     v1::GetSceneResponse* response) {
   const absl::StatusOr<catalog::Entry> entry = catalog_.get(request->name());
   if (!entry.ok()) return to_grpc(entry.status());
+  const AnswerLimit limit(request->max_answer_bytes());
+  // Before the scene is copied, and then with the summary.
+  const char* const instead = "ask GetSceneParts, which answers scenes of any size";
+  if (absl::Status s = limit.admit(entry->scene->ByteSizeLong(), instead); !s.ok()) return to_grpc(s);
   *response->mutable_scene() = *entry->scene;
-  return to_grpc(summarise(*entry, *response->mutable_summary()));
+  if (absl::Status s = summarise(*entry, *response->mutable_summary()); !s.ok()) return to_grpc(s);
+  return to_grpc(limit.admit(response->ByteSizeLong(), instead));
 }
 
-grpc::Status SceneService::ListScenes(grpc::ServerContext*, const v1::ListScenesRequest*,
+grpc::Status SceneService::GetSceneParts(grpc::ServerContext*, const v1::GetSceneRequest* request,
+                                         grpc::ServerWriter<v1::ScenePart>* writer) {
+  const absl::StatusOr<catalog::Entry> entry = catalog_.get(request->name());
+  if (!entry.ok()) return to_grpc(entry.status());
+  v1::ScenePart part;
+  if (absl::Status s = summarise(*entry, *part.mutable_summary()); !s.ok()) return to_grpc(s);
+  const std::string bytes = entry->scene->SerializeAsString();
+  const bool is_sent = in_parts(std::span(bytes), 1, [&](std::span<const char> data) {
+    part.set_data(data.data(), data.size());
+    const bool is_written = writer->Write(part);
+    part.clear_summary();
+    return is_written;
+  });
+  return is_sent ? grpc::Status::OK : grpc::Status(grpc::StatusCode::CANCELLED, "the client is gone");
+}
+
+grpc::Status SceneService::ListScenes(grpc::ServerContext*, const v1::ListScenesRequest* request,
                                       v1::ListScenesResponse* response) {
-  for (const catalog::Entry& entry : catalog_.list()) {
-    if (absl::Status s = summarise(entry, *response->add_scenes()); !s.ok()) return to_grpc(s);
+  AnswerPage page;
+  for (const catalog::Entry& entry : catalog_.list(request->after())) {
+    v1::SceneSummary summary;
+    if (absl::Status s = summarise(entry, summary); !s.ok()) return to_grpc(s);
+    if (!page.admit(summary.ByteSizeLong())) {
+      response->set_has_more(true);
+      break;
+    }
+    *response->add_scenes() = std::move(summary);
   }
   return grpc::Status::OK;
 }

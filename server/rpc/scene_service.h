@@ -17,6 +17,8 @@ class SceneService final : public v1::SceneService::Service {
 
   grpc::Status PutScene(grpc::ServerContext*, const v1::PutSceneRequest*, v1::PutSceneResponse*) override;
   grpc::Status GetScene(grpc::ServerContext*, const v1::GetSceneRequest*, v1::GetSceneResponse*) override;
+  grpc::Status GetSceneParts(grpc::ServerContext*, const v1::GetSceneRequest*,
+                             grpc::ServerWriter<v1::ScenePart>*) override;
   grpc::Status ListScenes(grpc::ServerContext*, const v1::ListScenesRequest*, v1::ListScenesResponse*) override;
   grpc::Status DeleteScene(grpc::ServerContext*, const v1::DeleteSceneRequest*, v1::DeleteSceneResponse*) override;
   grpc::Status EditParameters(grpc::ServerContext*, const v1::EditParametersRequest*,

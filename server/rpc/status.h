@@ -6,10 +6,11 @@
 
 namespace isofield::rpc {
 
-// The codes are the same numbers by design.
-inline grpc::Status to_grpc(const absl::Status& status) {
-  if (status.ok()) return grpc::Status::OK;
-  return {static_cast<grpc::StatusCode>(status.code()), std::string(status.message())};
-}
+// Bytes of a status's message. gRPC's clients take 8 KiB of headers in all, in which a byte may take three.
+inline constexpr std::size_t kMaxStatusBytes = 2048;
+
+// The codes are the same numbers by design. The message is cut at kMaxStatusBytes, and control characters in it are
+// escaped.
+grpc::Status to_grpc(const absl::Status& status);
 
 }  // namespace isofield::rpc

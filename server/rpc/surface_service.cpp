@@ -8,6 +8,7 @@
 #include "engine/iso_level.h"
 #include "engine/slicer.h"
 #include "engine/status_macros.h"
+#include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"
@@ -18,6 +19,24 @@ namespace {
 constexpr int kMaxLevels = 64;
 // Of the longest edge of the supports: the tolerance of a projection that states none.
 constexpr double kProjectionTolerance = 1e-5;
+
+constexpr char kFewerRows[] = "ask for fewer rows", kSmallerPlane[] = "ask for a part of the plane";
+
+// Checks a batch before the work, by the bytes that a row of the answer takes at least.
+template <class Request>
+absl::Status check_batch(const Request& request, std::uint64_t rows, std::uint64_t row_bytes) {
+  ISOFIELD_RETURN_IF_ERROR(check_number_rows(request.answer_in_numbers(), rows));
+  return AnswerLimit(request.max_answer_bytes()).admit(rows * row_bytes, kFewerRows);
+}
+
+// Writes a batch's arrays as the request asks for, and checks the size of the whole answer.
+template <class Request, class Response>
+absl::Status finish_batch(const Request& request, std::initializer_list<v1::Tensor*> arrays, Response& response) {
+  if (request.answer_in_numbers()) {
+    for (v1::Tensor* array : arrays) write_as_numbers(*array);
+  }
+  return AnswerLimit(request.max_answer_bytes()).admit(response.ByteSizeLong(), kFewerRows);
+}
 
 constexpr RowArray::Words kPoints{"points", "points", "send them in parts"};
 
@@ -139,6 +158,7 @@ absl::Status SurfaceService::cast(const grpc::ServerContext& context, const v1::
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray directions,
                             PointArray::read(request.directions(), most, {"directions", "rays", "send them in parts"}));
   ISOFIELD_RETURN_IF_ERROR(check_rays(origins, directions));
+  ISOFIELD_RETURN_IF_ERROR(check_batch(request, origins.size(), 33));
   engine::RayRequest r{.origins = origins.xyz(), .directions = directions.xyz()};
   ISOFIELD_ASSIGN_OR_RETURN(r.surface, read_surface(request, leased.scene->tape(), limits_));
   if (request.has_max_distance()) {
@@ -158,7 +178,10 @@ absl::Status SurfaceService::cast(const grpc::ServerContext& context, const v1::
   set_rows(std::span<const std::uint8_t>(hits.inside), 1, *response.mutable_inside());
   response.set_cell_size(hits.cell_size);
   response.set_scene_version(leased.version);
-  return absl::OkStatus();
+  return finish_batch(request,
+                      {response.mutable_distances(), response.mutable_positions(), response.mutable_normals(),
+                       response.mutable_nodes(), response.mutable_inside()},
+                      response);
 }
 
 absl::Status SurfaceService::project(const grpc::ServerContext& context, const v1::ProjectPointsRequest& request,
@@ -167,6 +190,7 @@ absl::Status SurfaceService::project(const grpc::ServerContext& context, const v
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray points,
                             PointArray::read(request.points(), limits_.max_points_per_message, kPoints));
   const blobtree::Tape& tape = leased.scene->tape();
+  ISOFIELD_RETURN_IF_ERROR(check_batch(request, points.size(), 29));
   engine::ProjectionRequest r{.points = points.xyz()};
   ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
   if (request.has_tolerance()) {
@@ -183,7 +207,10 @@ absl::Status SurfaceService::project(const grpc::ServerContext& context, const v
   set_rows(std::span(found.normals), 3, *response.mutable_normals());
   set_rows(std::span(found.converged), 1, *response.mutable_converged());
   set_rows(std::span(found.residuals), 1, *response.mutable_residuals());
-  return absl::OkStatus();
+  return finish_batch(request,
+                      {response.mutable_positions(), response.mutable_normals(), response.mutable_converged(),
+                       response.mutable_residuals()},
+                      response);
 }
 
 absl::Status SurfaceService::contains(const grpc::ServerContext& context, const v1::ContainsRequest& request,
@@ -191,6 +218,7 @@ absl::Status SurfaceService::contains(const grpc::ServerContext& context, const 
   ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray points,
                             PointArray::read(request.points(), limits_.max_points_per_message, kPoints));
+  ISOFIELD_RETURN_IF_ERROR(check_batch(request, points.size(), 1));
   engine::IsoLevel level{.law = leased.scene->tape().law};
   ISOFIELD_ASSIGN_OR_RETURN(level.iso, read_iso(request, level.law));
   std::vector<float> values(points.size());
@@ -199,13 +227,16 @@ absl::Status SurfaceService::contains(const grpc::ServerContext& context, const 
   std::vector<std::uint8_t> inside(values.size());
   std::transform(values.begin(), values.end(), inside.begin(), [&](float f) { return level.excess(f) > 0 ? 1 : 0; });
   set_rows(std::span<const std::uint8_t>(inside), 1, *response.mutable_inside());
-  return absl::OkStatus();
+  return finish_batch(request, {response.mutable_inside()}, response);
 }
 
 absl::Status SurfaceService::slice(const grpc::ServerContext& context, const v1::SliceRequest& request,
                                    v1::SliceResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::Plane plane, read_plane(request, limits_));
+  const AnswerLimit limit(request.max_answer_bytes());
+  ISOFIELD_RETURN_IF_ERROR(
+      limit.admit(std::uint64_t{plane.counts[0]} * plane.counts[1] * sizeof(float), kSmallerPlane));
   std::vector<double> levels(request.levels().begin(), request.levels().end());
   if (levels.empty()) {
     ISOFIELD_ASSIGN_OR_RETURN(const double surface, read_iso(std::optional<double>(), leased.scene->tape().law));
@@ -224,7 +255,7 @@ absl::Status SurfaceService::slice(const grpc::ServerContext& context, const v1:
   }
   set_vector(plane.u, *response.mutable_u());
   set_vector(plane.v, *response.mutable_v());
-  return absl::OkStatus();
+  return limit.admit(response.ByteSizeLong(), kSmallerPlane);
 }
 
 grpc::Status SurfaceService::CastRays(grpc::ServerContext* context, const v1::CastRaysRequest* request,

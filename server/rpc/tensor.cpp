@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/status_macros.h"
+#include "rpc/answer_limit.h"
 
 namespace isofield::rpc {
 namespace {
@@ -28,6 +29,13 @@ std::size_t first_not_finite(std::span<const float> numbers) {
     }
   }
   return numbers.size();
+}
+
+template <class T>
+void widen(v1::Tensor& tensor) {
+  const auto* numbers = reinterpret_cast<const T*>(tensor.data().data());
+  tensor.mutable_numbers()->Assign(numbers, numbers + tensor.data().size() / sizeof(T));
+  tensor.clear_data();
 }
 
 template <class T>
@@ -67,6 +75,7 @@ void RowArray::convert(const std::byte* data, std::size_t count) {
 
 absl::StatusOr<RowArray> RowArray::read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
                                         const Words& words) {
+  if (!tensor.numbers().empty()) return read_numbers(tensor, columns, max_rows, words);
   ISOFIELD_RETURN_IF_ERROR(check(tensor.dtype(), tensor.shape(), columns, max_rows, words));
   const std::uint64_t count = tensor.shape(0);
   const std::uint64_t size = tensor.dtype() == v1::Tensor::FLOAT32 ? 4 : 8;
@@ -81,6 +90,38 @@ absl::StatusOr<RowArray> RowArray::read(const v1::Tensor& tensor, std::uint64_t 
   } else {
     array.convert(reinterpret_cast<const std::byte*>(tensor.data().data()), columns * count);
   }
+  return array;
+}
+
+absl::StatusOr<RowArray> RowArray::read_numbers(const v1::Tensor& tensor, std::uint64_t columns,
+                                                std::uint64_t max_rows, const Words& words) {
+  if (!tensor.data().empty()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(words.tensor, ".data and ", words.tensor, ".numbers are both stated: expected one of them"));
+  }
+  const std::uint64_t count = tensor.numbers_size();
+  if (count % columns != 0) {
+    return absl::InvalidArgumentError(absl::StrCat(words.tensor, ".numbers holds ", count,
+                                                   " numbers: expected a multiple of ", columns, ", so many a row"));
+  }
+  Shape shape = tensor.shape();
+  if (shape.empty()) {
+    shape.Add(count / columns);
+    shape.Add(columns);
+  }
+  const bool has_type = tensor.dtype() != v1::Tensor::DTYPE_UNSPECIFIED;
+  ISOFIELD_RETURN_IF_ERROR(check(has_type ? tensor.dtype() : v1::Tensor::FLOAT32, shape, columns, max_rows, words));
+  if (shape[0] != count / columns) {
+    return absl::InvalidArgumentError(absl::StrCat(words.tensor, ".numbers holds ", count, " numbers: expected ",
+                                                   columns * shape[0], " for ", shape[0], " ", words.rows));
+  }
+  if (shape[0] > kMaxNumberRows) {
+    return absl::InvalidArgumentError(absl::StrCat(words.tensor, ".numbers holds ", shape[0], " ", words.rows,
+                                                   ": expected at most ", kMaxNumberRows,
+                                                   "; send more as bytes, in data"));
+  }
+  RowArray array;
+  array.convert(reinterpret_cast<const std::byte*>(tensor.numbers().data()), count);
   return array;
 }
 
@@ -132,6 +173,17 @@ std::span<float> make_float_tensor(std::initializer_list<std::uint64_t> shape, v
   std::string* data = tensor.mutable_data();
   data->resize(4 * count);
   return {reinterpret_cast<float*>(data->data()), count};
+}
+
+void write_as_numbers(v1::Tensor& tensor) {
+  switch (tensor.dtype()) {
+    case v1::Tensor::UINT32:
+      return widen<std::uint32_t>(tensor);
+    case v1::Tensor::UINT8:
+      return widen<std::uint8_t>(tensor);
+    default:
+      return widen<float>(tensor);
+  }
 }
 
 void set_rows(std::span<const float> numbers, std::uint64_t columns, v1::Tensor& tensor) {

@@ -23,7 +23,8 @@ class RowArray {
     const char* rows;      // "points"
     const char* too_many;  // what to do instead of sending more than are admitted
   };
-  // INVALID_ARGUMENT: dtype, shape or size. RESOURCE_EXHAUSTED: more than max_rows. `tensor` must outlive the result.
+  // From bytes, or from plain numbers. INVALID_ARGUMENT: dtype, shape or size. RESOURCE_EXHAUSTED: more than max_rows.
+  // `tensor` must outlive the result.
   static absl::StatusOr<RowArray> read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
                                        const Words& words);
 
@@ -39,6 +40,8 @@ class RowArray {
   // All but the bytes.
   static absl::Status check(v1::Tensor::DType dtype, const Shape& shape, std::uint64_t columns, std::uint64_t max_rows,
                             const Words& words);
+  static absl::StatusOr<RowArray> read_numbers(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
+                                               const Words& words);
   void convert(const std::byte* data, std::size_t count);  // from float64
 
   std::span<const float> numbers_;
@@ -71,6 +74,9 @@ class PointArray {
 
 // Makes a FLOAT32 tensor of this shape and returns its content, to be written by the caller.
 std::span<float> make_float_tensor(std::initializer_list<std::uint64_t> shape, v1::Tensor& tensor);
+
+// Turns a tensor's bytes into plain numbers, which say the same.
+void write_as_numbers(v1::Tensor& tensor);
 
 // Makes a tensor of rows of so many numbers.
 void set_rows(std::span<const float> numbers, std::uint64_t columns, v1::Tensor& tensor);

@@ -61,6 +61,38 @@ TEST_F(ClientTest, PutsScenesOfManyNodes) {
   EXPECT_EQ(client_.get_scene("many")->scene().nodes_size(), 100000);
 }
 
+TEST_F(ClientTest, PartsOfASceneThatAreNoneAreAnError) {
+  ASSERT_TRUE(client_.put_scene("a", ball()).ok());
+  server_.garbled_scene = true;
+  const auto scene = client_.get_scene("a");
+  EXPECT_EQ(scene.status().code(), absl::StatusCode::kInternal);
+  EXPECT_TRUE(absl::StrContains(scene.status().message(), "8 bytes")) << scene.status();
+}
+
+TEST_F(ClientTest, ListsOfSeveralPagesAreJoined) {
+  const std::vector<std::string> names{"a", "b", "c", "d", "e"};
+  for (const std::string& name : names) ASSERT_TRUE(client_.put_scene(name, ball()).ok());
+  for (const std::size_t entries : {1, 2, 5, 6}) {
+    server_.page_entries = entries;
+    const auto scenes = client_.list_scenes();
+    ASSERT_TRUE(scenes.ok()) << scenes.status();
+    std::vector<std::string> listed;
+    for (const v1::SceneSummary& summary : *scenes) listed.push_back(summary.name());
+    EXPECT_EQ(listed, names) << entries << " a page";
+  }
+}
+
+TEST_F(ClientTest, ChunksThatAreAnsweredInPartsAreWhole) {
+  const auto xyz = points(2 * Client::kChunkPoints + 7);
+  const auto whole = client_.evaluate(inline_scene(ball()), xyz, true);
+  ASSERT_TRUE(whole.ok()) << whole.status();
+  server_.answer_rows = 10'000;
+  const auto parts = client_.evaluate(inline_scene(ball()), xyz, true);
+  ASSERT_TRUE(parts.ok()) << parts.status();
+  EXPECT_EQ(*parts, *whole);
+  EXPECT_EQ(server_.max_answer_bytes, 64u << 20) << "or the server would answer in parts where it need not";
+}
+
 TEST_F(ClientTest, EvaluatesBatchesOfAllSizes) {
   for (const std::size_t count :
        {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{64}, Client::kUnaryPoints, Client::kUnaryPoints + 1,
@@ -209,6 +241,14 @@ TEST_F(ClientTest, EvaluatesGrids) {
   ASSERT_EQ(grid->values.size(), 24u);
   EXPECT_EQ(grid->values[0], 14);
   EXPECT_EQ(grid->values[23], 1 + 1.5f + 2 * 2.5f + 3 * 5);
+  for (std::size_t n = 0; n < 24; ++n) {
+    const auto i = static_cast<float>(n % 4), j = static_cast<float>(n / 4 % 3), k = static_cast<float>(n / 12);
+    EXPECT_EQ(grid->values[n], 1 + i / 2 + 2 * (2 + j / 4) + 3 * (3 + 2 * k)) << n;
+  }
+  EXPECT_EQ(server_.max_answer_bytes, 64u << 20);
+  server_.misplaced_rows = true;
+  EXPECT_EQ(client_.evaluate_grid(inline_scene(ball()), {1, 2, 3}, {0.5, 0.25, 2}, {4, 3, 2}, false).status().code(),
+            absl::StatusCode::kInternal);
 }
 
 TEST_F(ClientTest, MeshesWithProgress) {

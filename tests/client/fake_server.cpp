@@ -24,6 +24,15 @@ void fill(const void* data, std::size_t bytes, v1::Tensor::DType type, std::init
   tensor.set_data(data, bytes);
 }
 
+// Of a catalog what comes after a name, a page of it.
+template <class Response, class Map, class Add>
+void list(const Map& catalog, const std::string& after, std::size_t most, Response& response, const Add& add) {
+  for (auto it = catalog.upper_bound(after); it != catalog.end(); ++it) {
+    if (most-- == 0) return response.set_has_more(true);
+    add(it->second.summary());
+  }
+}
+
 void evaluate(const v1::Tensor& points, bool gradient, v1::Tensor& result) {
   std::vector<float> xyz(points.data().size() / sizeof(float));
   if (!xyz.empty()) std::memcpy(xyz.data(), points.data().data(), points.data().size());
@@ -72,11 +81,28 @@ class FakeServer::Scenes : public v1::SceneService::Service {
     return grpc::Status::OK;
   }
 
-  grpc::Status ListScenes(grpc::ServerContext*, const v1::ListScenesRequest*,
+  grpc::Status GetSceneParts(grpc::ServerContext* context, const v1::GetSceneRequest* request,
+                             grpc::ServerWriter<v1::ScenePart>* writer) override {
+    v1::GetSceneResponse whole;
+    if (auto status = GetScene(context, request, &whole); !status.ok()) return status;
+    const std::string bytes = owner_.garbled_scene ? "no scene" : whole.scene().SerializeAsString();
+    const std::size_t half = bytes.size() / 2;
+    v1::ScenePart part;
+    *part.mutable_summary() = whole.summary();
+    part.set_data(bytes.substr(0, half));
+    writer->Write(part);
+    part.clear_summary();
+    part.set_data(bytes.substr(half));
+    writer->Write(part);
+    return grpc::Status::OK;
+  }
+
+  grpc::Status ListScenes(grpc::ServerContext*, const v1::ListScenesRequest* request,
                           v1::ListScenesResponse* response) override {
     if (auto status = owner_.admit_read(); !status.ok()) return status;
     const std::lock_guard lock(owner_.mutex_);
-    for (const auto& [name, stored] : owner_.catalog_) *response->add_scenes() = stored.summary();
+    list(owner_.catalog_, request->after(), owner_.page_entries, *response,
+         [&](const v1::SceneSummary& summary) { *response->add_scenes() = summary; });
     return grpc::Status::OK;
   }
 
@@ -134,14 +160,24 @@ class FakeServer::Fields : public v1::FieldService::Service {
       if (message == 0) {
         if (auto status = owner_.find(request.scene()); !status.ok()) return status;
         gradient = request.quantity() == v1::VALUE_AND_GRADIENT;
+        owner_.max_answer_bytes = request.max_answer_bytes();
       } else if (request.has_scene()) {
         return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "scene: first message only");
       }
       if (message == owner_.fail_stream_after) return grpc::Status(grpc::StatusCode::RESOURCE_EXHAUSTED, "too much");
       if (!request.has_points()) continue;
       owner_.largest_chunk = std::max<std::size_t>(owner_.largest_chunk, request.points().shape(0));
-      evaluate(request.points(), gradient, *response.mutable_result());
-      stream->Write(response);
+      const std::size_t rows = request.points().shape(0);
+      std::size_t first = 0;
+      do {
+        const std::size_t count = std::min<std::size_t>(owner_.answer_rows, rows - first);
+        v1::Tensor part = request.points();
+        part.set_shape(0, count);
+        part.set_data(part.data().substr(12 * first, 12 * count));
+        evaluate(part, gradient, *response.mutable_result());
+        stream->Write(response);
+        first += count;
+      } while (first < rows);
     }
     return grpc::Status::OK;
   }
@@ -149,21 +185,27 @@ class FakeServer::Fields : public v1::FieldService::Service {
   grpc::Status EvaluateGrid(grpc::ServerContext*, const v1::EvaluateGridRequest* request,
                             grpc::ServerWriter<v1::EvaluateGridResponse>* writer) override {
     if (auto status = owner_.admit_read(); !status.ok()) return status;
-    // A slab a layer.
-    for (std::uint64_t k = 0; k < request->counts(2); ++k) {
-      std::vector<float> layer;
-      for (std::uint64_t j = 0; j < request->counts(1); ++j) {
-        for (std::uint64_t i = 0; i < request->counts(0); ++i) {
-          layer.push_back(static_cast<float>(request->origin(0) + request->spacing(0) * static_cast<double>(i) +
-                                             2 * (request->origin(1) + request->spacing(1) * static_cast<double>(j)) +
-                                             3 * (request->origin(2) + request->spacing(2) * static_cast<double>(k))));
-        }
-      }
+    owner_.max_answer_bytes = request->max_answer_bytes();
+    // The first layer whole, others row by row, and the last row point by point.
+    const std::uint64_t nx = request->counts(0), ny = request->counts(1), nz = request->counts(2);
+    const auto value = [&](std::uint64_t i, std::uint64_t j, std::uint64_t k) {
+      return static_cast<float>(request->origin(0) + request->spacing(0) * static_cast<double>(i) +
+                                2 * (request->origin(1) + request->spacing(1) * static_cast<double>(j)) +
+                                3 * (request->origin(2) + request->spacing(2) * static_cast<double>(k)));
+    };
+    for (std::uint64_t at = 0; at < nx * ny * nz;) {
+      const std::uint64_t i = at % nx, j = at / nx % ny, k = at / (nx * ny);
+      const std::uint64_t rows = k == 0 ? ny : 1, columns = k + 1 == nz && j + 1 == ny ? 1 : nx;
+      std::vector<float> part;
+      for (std::uint64_t n = 0; n < rows * columns; ++n) part.push_back(value(i + n % nx, j + n / nx, k));
       v1::EvaluateGridResponse response;
       response.set_first_layer(k);
-      fill(layer.data(), layer.size() * sizeof(float), v1::Tensor::FLOAT32,
-           {1, request->counts(1), request->counts(0), 1}, *response.mutable_result());
+      response.set_first_row(owner_.misplaced_rows ? 0 : j);
+      response.set_first_column(i);
+      fill(part.data(), part.size() * sizeof(float), v1::Tensor::FLOAT32, {1, rows, columns, 1},
+           *response.mutable_result());
       writer->Write(response);
+      at += rows * columns;
     }
     return grpc::Status::OK;
   }
@@ -280,12 +322,13 @@ class FakeServer::Operators : public v1::OperatorService::Service {
     return grpc::Status::OK;
   }
 
-  grpc::Status ListOperators(grpc::ServerContext*, const v1::ListOperatorsRequest*,
+  grpc::Status ListOperators(grpc::ServerContext*, const v1::ListOperatorsRequest* request,
                              v1::ListOperatorsResponse* response) override {
     if (auto status = owner_.admit_read(); !status.ok()) return status;
     const std::lock_guard lock(owner_.mutex_);
-    response->add_operators()->set_name("gradient");
-    for (const auto& [name, stored] : owner_.operator_catalog_) *response->add_operators() = stored.summary();
+    if (request->after().empty()) response->add_operators()->set_name("gradient");
+    list(owner_.operator_catalog_, request->after(), owner_.page_entries, *response,
+         [&](const v1::OperatorSummary& summary) { *response->add_operators() = summary; });
     return grpc::Status::OK;
   }
 

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "grpc/health/v1/health.grpc.pb.h"
 #include "integration/ball.h"
 #include "integration/daemon.h"
 #include "integration/peer.h"
@@ -88,6 +89,24 @@ TEST(Lifecycle, SigtermLetsARunningMeshFinish) {
   EXPECT_TRUE(ok(stream->Finish()));
   EXPECT_GT(vertices, 100'000u);
   EXPECT_EQ(received, vertices);
+  daemon.expect_orderly_end();
+}
+
+// What watches the server learns at once that it is going, while running requests finish.
+TEST(Lifecycle, HealthIsNotServingDuringTheDrain) {
+  Daemon daemon({"--drain-seconds", "300"});
+  Peer peer(daemon.address());
+  const auto health = grpc::health::v1::Health::NewStub(peer.channel());
+  grpc::ClientContext watching;
+  const auto watch = health->Watch(&watching, {});
+  grpc::health::v1::HealthCheckResponse state;
+  ASSERT_TRUE(watch->Read(&state));
+  EXPECT_EQ(state.status(), grpc::health::v1::HealthCheckResponse::SERVING);
+  daemon.process().signal(SIGTERM);
+  ASSERT_TRUE(watch->Read(&state));
+  EXPECT_EQ(state.status(), grpc::health::v1::HealthCheckResponse::NOT_SERVING);
+  watching.TryCancel();
+  watch->Finish();
   daemon.expect_orderly_end();
 }
 

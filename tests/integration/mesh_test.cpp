@@ -275,6 +275,14 @@ TEST_F(Mesh, ReportsProgressThatNeverFalls) {
   }
 }
 
+TEST(MeshKernels, AreSaidToBeCompiledByTheFirstMeshOfAMixAlone) {
+  Daemon daemon;
+  Peer peer(daemon.address());
+  const v1::MeshRequest request = mesh_request(inlined(Ball().scene()), 0.1);
+  EXPECT_TRUE(peer.mesh(request).waited_for_kernels);
+  EXPECT_FALSE(peer.mesh(request).waited_for_kernels);
+}
+
 TEST_F(Mesh, CostFollowsTheSurface) {
   // Points that are small against their box; the cells that the server looks at say what they cost.
   const auto cells_of_points = [&](int count) {

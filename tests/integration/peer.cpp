@@ -35,10 +35,12 @@ v1::Tensor tensor_of(std::span<const T> xyz, v1::Tensor::DType dtype) {
 
 }  // namespace
 
-Peer::Peer(const std::string& address) {
+Peer::Peer(const std::string& address, Messages messages) {
   grpc::ChannelArguments arguments;
-  arguments.SetMaxReceiveMessageSize(-1);
-  arguments.SetMaxSendMessageSize(-1);
+  if (messages == Messages::kOfAnySize) {
+    arguments.SetMaxReceiveMessageSize(-1);
+    arguments.SetMaxSendMessageSize(-1);
+  }
   // Or all channels of the process to one address share a connection.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
@@ -48,6 +50,7 @@ Peer::Peer(const std::string& address) {
   meshes_ = v1::MeshService::NewStub(channel_);
   infos_ = v1::InfoService::NewStub(channel_);
   operators_ = v1::OperatorService::NewStub(channel_);
+  surfaces_ = v1::SurfaceService::NewStub(channel_);
 }
 
 grpc::Status Peer::put(const std::string& name, const v1::Scene& scene, v1::SceneSummary* summary) {
@@ -108,6 +111,7 @@ grpc::Status Peer::evaluate(const v1::SceneRef& scene, std::span<const float> xy
   *request.mutable_scene() = scene;
   request.set_quantity(gradient ? v1::VALUE_AND_GRADIENT : v1::VALUE);
   *request.mutable_points() = points_tensor(xyz);
+  request.set_max_answer_bytes(~0ull);  // the channel takes any
   v1::EvaluateResponse response;
   grpc::Status status = evaluate(request, &response);
   if (!status.ok()) return status;
@@ -143,19 +147,21 @@ grpc::Status Peer::evaluate_grid(const v1::EvaluateGridRequest& request, std::ve
   grpc::ClientContext context;
   const auto stream = fields_->EvaluateGrid(&context, request);
   v1::EvaluateGridResponse response;
-  std::uint64_t layers = 0;
+  std::uint64_t points = 0;
   while (stream->Read(&response)) {
-    EXPECT_EQ(response.first_layer(), layers);
-    EXPECT_EQ(response.result().shape_size(), 4);
-    EXPECT_EQ(response.result().shape(1), request.counts(1));
-    EXPECT_EQ(response.result().shape(2), request.counts(0));
-    layers += response.result().shape(0);
+    const auto& shape = response.result().shape();
+    EXPECT_EQ(shape.size(), 4);
+    const std::uint64_t row = response.first_layer() * request.counts(1) + response.first_row();
+    EXPECT_EQ(row * request.counts(0) + response.first_column(), points) << "parts follow one another";
+    EXPECT_TRUE(shape[2] == request.counts(0) || shape[0] * shape[1] == 1) << "a part of a row";
+    EXPECT_TRUE(shape[1] == request.counts(1) || shape[0] == 1) << "a part of a layer";
+    points += shape[0] * shape[1] * shape[2];
     if (out) append(response.result(), v1::Tensor::FLOAT32, *out);
     if (messages) ++*messages;
   }
   const grpc::Status status = stream->Finish();
   if (status.ok()) {
-    EXPECT_EQ(layers, request.counts(2));
+    EXPECT_EQ(points, request.counts(0) * request.counts(1) * request.counts(2));
   }
   return status;
 }
@@ -167,7 +173,10 @@ grpc::Status Peer::mesh(const v1::MeshRequest& request, ReceivedMesh* mesh) {
   bool has_summary = false;
   while (stream->Read(&response)) {
     EXPECT_FALSE(has_summary) << "the summary comes last";
-    if (response.has_progress()) mesh->progress.push_back(response.progress().fraction());
+    if (response.has_progress()) {
+      mesh->progress.push_back(response.progress().fraction());
+      mesh->waited_for_kernels |= response.progress().stage() == v1::MeshProgress::COMPILING_KERNELS;
+    }
     if (response.has_summary()) mesh->summary = response.summary();
     has_summary = has_summary || response.has_summary();
     if (!response.has_part()) continue;

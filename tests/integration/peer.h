@@ -17,6 +17,7 @@
 #include "isofield/v1/mesh_service.grpc.pb.h"
 #include "isofield/v1/operator_service.grpc.pb.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
+#include "isofield/v1/surface_service.grpc.pb.h"
 
 namespace isofield::integration_test {
 
@@ -26,12 +27,15 @@ struct ReceivedMesh {
   std::vector<std::uint32_t> triangles;
   v1::MeshSummary summary;
   std::vector<double> progress;
+  bool waited_for_kernels = false;
 };
 
 // Connected to one daemon, over a connection of its own. Every method is one request; any number of threads.
 class Peer {
  public:
-  explicit Peer(const std::string& address);
+  // What the channel receives: kOfAnySize, or what gRPC's clients do that set no option, up to 4 MiB.
+  enum class Messages { kOfAnySize, kByDefault };
+  explicit Peer(const std::string& address, Messages messages = Messages::kOfAnySize);
 
   grpc::Status put(const std::string& name, const v1::Scene& scene, v1::SceneSummary* summary = nullptr);
   grpc::Status put(const v1::PutSceneRequest& request, v1::SceneSummary* summary = nullptr);
@@ -57,6 +61,8 @@ class Peer {
   v1::FieldService::Stub& fields() { return *fields_; }
   v1::MeshService::Stub& meshes() { return *meshes_; }
   v1::OperatorService::Stub& operators() { return *operators_; }
+  v1::SceneService::Stub& scenes() { return *scenes_; }
+  v1::SurfaceService::Stub& surfaces() { return *surfaces_; }
 
  private:
   std::shared_ptr<grpc::Channel> channel_;
@@ -65,6 +71,7 @@ class Peer {
   std::unique_ptr<v1::MeshService::Stub> meshes_;
   std::unique_ptr<v1::InfoService::Stub> infos_;
   std::unique_ptr<v1::OperatorService::Stub> operators_;
+  std::unique_ptr<v1::SurfaceService::Stub> surfaces_;
 };
 
 v1::SceneRef named(const std::string& name);

@@ -19,33 +19,38 @@ def generate(protoc, protos, out):
 
 
 def start_daemon(isofieldd, address):
+    """A running daemon, and the address that it serves: of port 0 it is a free one."""
     daemon = subprocess.Popen([isofieldd, "--listen", address, "--validation"], stderr=subprocess.PIPE, text=True)
     for line in daemon.stderr:
         if "listening on" in line:
-            return daemon
+            return daemon, line.split("listening on ")[1].strip()
     sys.exit(f"isofieldd does not start: exit code {daemon.wait()}")
+
+
+def stop_daemon(daemon):
+    """Fails where the daemon exits with an error or the Vulkan validation layer has said anything."""
+    daemon.send_signal(signal.SIGTERM)
+    _, log = daemon.communicate()
+    assert daemon.returncode == 0, f"exit code {daemon.returncode}\n{log}"
+    assert "Vulkan validation:" not in log, log
 
 
 @contextlib.contextmanager
 def served(isofieldd, protoc, protos):
     """Yields a channel to a daemon that serves until the end of the block; modules isofield.v1.* can be imported then.
-
-    Fails where the daemon exits with an error or the Vulkan validation layer has said anything."""
+    No option of the channel is set. Fails as stop_daemon does."""
     with tempfile.TemporaryDirectory(prefix="isofield-") as folder:
         generate(protoc, protos, folder)
         address = f"unix:{folder}/s"
-        daemon = start_daemon(isofieldd, address)
+        daemon, _ = start_daemon(isofieldd, address)
         try:
             with grpc.insecure_channel(address) as channel:
                 yield channel
         finally:
-            daemon.send_signal(signal.SIGTERM)
-            _, log = daemon.communicate()
-    assert daemon.returncode == 0, f"exit code {daemon.returncode}\n{log}"
-    assert "Vulkan validation:" not in log, log
+            stop_daemon(daemon)
 
 
 def array(tensor):
     """The numbers of a Tensor message."""
-    dtype = {1: "<f4", 2: "<f8", 3: "<u4"}[tensor.dtype]
+    dtype = {1: "<f4", 2: "<f8", 3: "<u4", 4: "u1"}[tensor.dtype]
     return np.frombuffer(tensor.data, dtype).reshape(tuple(tensor.shape))

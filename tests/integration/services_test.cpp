@@ -1,4 +1,5 @@
 // What any gRPC tool finds: reflection, health, and GetInfo.
+#include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
 
 #include "integration/daemon.h"
@@ -10,18 +11,52 @@ namespace {
 
 // ServerReflectionRequest{list_services: "*"}, as bytes: field 7, length 1.
 const std::string kListServices("\x3a\x01*", 3);
+const std::vector<std::string> kReflections{"/grpc.reflection.v1.ServerReflection/ServerReflectionInfo",
+                                            "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo"};
 // HealthCheckResponse{status: SERVING}.
 const std::string kServing("\x08\x01", 2);
 
 TEST(Services, ReflectionListsThem) {
   const Peer peer(shared_daemon().address());
-  const RawAnswer answer =
-      raw_call(peer.channel(), "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", kListServices);
-  EXPECT_TRUE(ok(answer.status));
-  for (const char* name : {"isofield.v1.SceneService", "isofield.v1.FieldService", "isofield.v1.MeshService",
-                           "isofield.v1.InfoService", "isofield.v1.OperatorService", "grpc.health.v1.Health"}) {
-    EXPECT_NE(answer.message.find(name), std::string::npos) << name;
+  for (const std::string& version : kReflections) {
+    const RawAnswer answer = raw_call(peer.channel(), version, kListServices);
+    EXPECT_TRUE(ok(answer.status)) << version;
+    for (const char* name : {"isofield.v1.SceneService", "isofield.v1.FieldService", "isofield.v1.MeshService",
+                             "isofield.v1.InfoService", "isofield.v1.OperatorService", "isofield.v1.SurfaceService",
+                             "grpc.health.v1.Health", "grpc.reflection.v1.ServerReflection"}) {
+      EXPECT_NE(answer.message.find(name), std::string::npos) << version << ": " << name;
+    }
   }
+}
+
+// The descriptions of symbols, of both versions: the file with what it imports.
+TEST(Services, ReflectionDescribesThem) {
+  const Peer peer(shared_daemon().address());
+  for (const std::string& version : kReflections) {
+    const auto describe = [&](const std::string& symbol) {
+      const std::string request = "\x22" + std::string(1, static_cast<char>(symbol.size())) + symbol;
+      const RawAnswer answer = raw_call(peer.channel(), version, request);
+      EXPECT_TRUE(ok(answer.status)) << version;
+      return answer.message;
+    };
+    for (const char* symbol : {"grpc.health.v1.Health", "grpc.health.v1.HealthCheckRequest"}) {
+      EXPECT_NE(describe(symbol).find("grpc/health/v1/health.proto"), std::string::npos) << version;
+    }
+    const std::string evaluate = describe("isofield.v1.FieldService.Evaluate");
+    for (const char* file : {"isofield/v1/field_service.proto", "isofield/v1/scene.proto", "isofield/v1/operator.proto"}) {
+      EXPECT_NE(evaluate.find(file), std::string::npos) << version << ": " << file;
+    }
+    EXPECT_EQ(describe("isofield.v1.Nothing").find("field_service.proto"), std::string::npos);
+  }
+}
+
+TEST(Services, ReflectionSaysWhatItDoesNotKnow) {
+  const Peer peer(shared_daemon().address());
+  const std::string name = "isofield.v1.No\nthing";
+  const RawAnswer answer =
+      raw_call(peer.channel(), kReflections[0], "\x22" + std::string(1, static_cast<char>(name.size())) + name);
+  EXPECT_TRUE(ok(answer.status));
+  EXPECT_NE(answer.message.find("no symbol is named 'isofield.v1.No\\nthing'"), std::string::npos);
 }
 
 TEST(Services, HealthIsServing) {
@@ -29,19 +64,51 @@ TEST(Services, HealthIsServing) {
   const RawAnswer answer = raw_call(peer.channel(), "/grpc.health.v1.Health/Check", "");
   EXPECT_TRUE(ok(answer.status));
   EXPECT_EQ(answer.message, kServing);
+  for (const std::string name : {"isofield.v1.FieldService", "isofield.v1.SurfaceService"}) {
+    const RawAnswer of_one = raw_call(peer.channel(), "/grpc.health.v1.Health/Check",
+                                      "\x0a" + std::string(1, static_cast<char>(name.size())) + name);
+    EXPECT_TRUE(ok(of_one.status)) << name;
+    EXPECT_EQ(of_one.message, kServing) << name;
+  }
+  EXPECT_EQ(raw_call(peer.channel(), "/grpc.health.v1.Health/Check", "\x0a\x02no").status.error_code(),
+            grpc::StatusCode::NOT_FOUND);
 }
 
-TEST(Services, UnknownMethodsAndUnreadableMessagesDoNoHarm) {
+TEST(Services, UnknownMethodsDoNoHarm) {
   const Peer peer(shared_daemon().address());
   EXPECT_EQ(raw_call(peer.channel(), "/isofield.v1.SceneService/Nothing", "").status.error_code(),
             grpc::StatusCode::UNIMPLEMENTED);
-  for (const char* method :
-       {"SceneService/PutScene", "FieldService/Evaluate", "FieldService/EvaluateStream", "FieldService/EvaluateGrid",
-        "MeshService/Mesh", "InfoService/GetInfo", "OperatorService/PutOperator", "OperatorService/EvaluateOperator",
-        "OperatorService/PickOpening"}) {
-    // A message that ends within a field, and one with a field of a wrong type.
-    for (const std::string& message : {std::string("\x0a\xff\xff\xff\x7f", 5), std::string(64, '\xff')}) {
-      EXPECT_FALSE(raw_call(peer.channel(), std::string("/isofield.v1.") + method, message).status.ok()) << method;
+  expect_serving(shared_daemon().address());
+}
+
+// Every method of the contract, so that a new one is tested without being named here.
+std::vector<const google::protobuf::MethodDescriptor*> all_methods() {
+  std::vector<const google::protobuf::MethodDescriptor*> methods;
+  for (const auto* file : {v1::EvaluateRequest::descriptor()->file(), v1::MeshRequest::descriptor()->file(),
+                           v1::PutSceneRequest::descriptor()->file(), v1::PutOperatorRequest::descriptor()->file(),
+                           v1::CastRaysRequest::descriptor()->file(), v1::GetInfoRequest::descriptor()->file()}) {
+    for (int i = 0; i < file->service_count(); ++i) {
+      for (int j = 0; j < file->service(i)->method_count(); ++j) methods.push_back(file->service(i)->method(j));
+    }
+  }
+  return methods;
+}
+
+TEST(Services, RequestsThatCannotBeReadAreInvalidArguments) {
+  const Peer peer(shared_daemon().address());
+  EXPECT_GE(all_methods().size(), 23u);
+  for (const auto* method : all_methods()) {
+    const std::string name = "/" + method->service()->full_name() + "/" + method->name();
+    // A message that ends within a field, and one whose first tag is none.
+    std::vector<std::string> messages{std::string("\x0a\xff\xff\xff\x7f", 5), std::string(64, '\xff')};
+    // A string that is no UTF-8, where the request begins with one.
+    const auto* first = method->input_type()->FindFieldByNumber(1);
+    if (first && first->type() == google::protobuf::FieldDescriptor::TYPE_STRING) messages.emplace_back("\x0a\x01\xff");
+    for (const std::string& message : messages) {
+      const grpc::Status status = raw_call(peer.channel(), name, message).status;
+      SCOPED_TRACE(name);
+      expect_refused(status, grpc::StatusCode::INVALID_ARGUMENT,
+                     {"cannot be read", method->input_type()->full_name()});
     }
   }
   expect_serving(shared_daemon().address());

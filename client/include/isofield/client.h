@@ -127,6 +127,7 @@ class Client {
   // Stores a scene, replacing one of that name. The second form may state a condition (scene_service.proto).
   absl::StatusOr<v1::SceneSummary> put_scene(const std::string& name, v1::Scene scene);
   absl::StatusOr<v1::SceneSummary> put_scene(const v1::PutSceneRequest& request);
+  // Scenes of any size: it is received in parts.
   absl::StatusOr<v1::GetSceneResponse> get_scene(const std::string& name);
   // By name.
   absl::StatusOr<std::vector<v1::SceneSummary>> list_scenes();
@@ -160,8 +161,8 @@ class Client {
   // Fills an empty vector with the [n, 3] coordinates of the next chunk, 0 <= n <= kChunkPoints; n = 0 ends the
   // stream. Called on a thread of the client's own, while results are read. An error ends the evaluation with it.
   using PointSource = std::function<absl::Status(std::vector<float>& xyz)>;
-  // Takes a chunk's coordinates and results ([n, 1] or [n, 4]), in the order sent, on the caller's thread. An error
-  // ends the evaluation with it.
+  // Takes a chunk's coordinates and results ([n, 1] or [n, 4]), in the order sent, on the caller's thread; in several
+  // calls where the server answers a chunk in parts. An error ends the evaluation with it.
   using ResultSink = std::function<absl::Status(std::span<const float> xyz, std::span<const float> results)>;
   // Evaluates any number of points with bounded memory: reading and writing overlap. Not retried.
   absl::Status evaluate(const v1::SceneRef& scene, bool gradient, const PointSource& source, const ResultSink& sink);
@@ -189,7 +190,7 @@ class Client {
   absl::StatusOr<Projections> project(v1::ProjectPointsRequest request, std::span<const float> xyz);
   // [n]: 1 inside, else 0.
   absl::StatusOr<std::vector<std::uint8_t>> contains(v1::ContainsRequest request, std::span<const float> xyz);
-  absl::StatusOr<Slice> slice(const v1::SliceRequest& request);
+  absl::StatusOr<Slice> slice(v1::SliceRequest request);
 
  private:
   struct Impl;
