@@ -8,12 +8,14 @@
 
 #include "importers/formats.h"
 #include "importers/import_options.h"
+#include "importers/swc_reader.h"
 #include "isofield/scene_file.h"
 
 namespace isofield {
 
 std::optional<ImportFormat> import_format(const std::string& path) {
-  constexpr std::array<std::pair<const char*, ImportFormat>, 5> kExtensions = {{{".swc", ImportFormat::kSwc},
+  constexpr std::array<std::pair<const char*, ImportFormat>, 6> kExtensions = {{{".swc", ImportFormat::kSwc},
+                                                                                {".eswc", ImportFormat::kSwc},
                                                                                 {".pdb", ImportFormat::kPdb},
                                                                                 {".ent", ImportFormat::kPdb},
                                                                                 {".xyz", ImportFormat::kXyz},
@@ -65,7 +67,7 @@ absl::StatusOr<Imported> import_text(const std::string& text, ImportFormat forma
   if (!status.ok()) {
     return absl::Status(status.code(), absl::StrCat(name, ": ", status.message(), "\n", imported.report.text()));
   }
-  imported.report.pieces = imported.scene.nodes_size();
+  imported.report.pieces = find_pieces(imported.scene).size();
   if (!options.unit.empty()) imported.scene.set_unit(options.unit);
   join_pieces(options.op, imported.scene);
   const std::size_t slash = name.rfind('/');
@@ -78,11 +80,12 @@ absl::StatusOr<Imported> import_file(const std::string& path, const ImportOption
   const auto format = import_format(path);
   if (!format) {
     return absl::InvalidArgumentError(
-        absl::StrCat(path, ": not a format that can be imported; expected .swc, .pdb, .ent, .xyz or .txt"));
+        absl::StrCat(path, ": not a format that can be imported; expected .swc, .eswc, .pdb, .ent, .xyz or .txt"));
   }
   const auto text = read_file(path);
   if (!text.ok()) return text.status();
-  return import_text(*text, *format, options, path);
+  const bool is_neuron = *format == ImportFormat::kPoints && looks_like_swc(*text);
+  return import_text(*text, is_neuron ? ImportFormat::kSwc : *format, options, path);
 }
 
 }  // namespace isofield

@@ -2,7 +2,9 @@
 
 #include <absl/strings/str_cat.h>
 
-#include <cmath>
+#include <algorithm>
+
+#include "importers/text.h"
 
 namespace isofield {
 namespace {
@@ -11,14 +13,16 @@ constexpr double kRicciExponent = 4;
 constexpr double kBulgeStrength = 0.8;
 
 absl::Status check_positive(const char* option, double value) {
-  if (std::isfinite(value) && value > 0) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat("import option ", option, ": ", value, "; expected a number > 0"));
+  if (value >= kLeastLength && value <= kLargestLength) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("import option ", option, ": ", value,
+                                                 "; expected a number > 0, within [", kLeastLength, ", ",
+                                                 kLargestLength, "]"));
 }
 
 template <typename Operator>
-void add_children(int count, Operator& op) {
-  op.mutable_children()->Reserve(count);
-  for (int i = 0; i < count; ++i) op.add_children(absl::StrCat("#", i));
+void add_children(const std::vector<int>& pieces, Operator& op) {
+  op.mutable_children()->Reserve(static_cast<int>(pieces.size()));
+  for (const int i : pieces) op.add_children(absl::StrCat("#", i));
 }
 
 }  // namespace
@@ -37,37 +41,48 @@ absl::Status check(const ImportOptions& options) {
 }
 
 double range_of(const ImportOptions& options, double factor, double radius) {
-  return options.range.value_or(options.range_factor.value_or(factor) * radius);
+  const double range = options.range.value_or(options.range_factor.value_or(factor) * radius);
+  return std::clamp(range, kLeastLength, kLargestLength);
+}
+
+std::vector<int> find_pieces(const v1::Scene& scene) {
+  std::vector<int> pieces;
+  for (int i = 0; i < scene.nodes_size(); ++i) {
+    // An importer adds a transform right after the node that it places.
+    if (scene.nodes(i).has_transform()) pieces.pop_back();
+    pieces.push_back(i);
+  }
+  return pieces;
 }
 
 void join_pieces(ImportOperator op, v1::Scene& scene) {
-  const int count = scene.nodes_size();
-  if (count < 2) return;
+  const std::vector<int> pieces = find_pieces(scene);
+  if (pieces.size() < 2) return;
   v1::Node& model = *scene.add_nodes();
   model.set_name("model");
   switch (op) {
     case ImportOperator::kCamel:
-      add_children(count, *model.mutable_gradient());
+      add_children(pieces, *model.mutable_gradient());
       model.mutable_gradient()->mutable_opening()->set_preset(v1::Opening::CAMEL);
       break;
     case ImportOperator::kOrganic:
-      add_children(count, *model.mutable_gradient());
+      add_children(pieces, *model.mutable_gradient());
       model.mutable_gradient()->mutable_opening()->set_preset(v1::Opening::ORGANIC);
       break;
     case ImportOperator::kContact:
-      add_children(count, *model.mutable_gradient());
+      add_children(pieces, *model.mutable_gradient());
       model.mutable_gradient()->mutable_opening()->set_preset(v1::Opening::CONTACT);
       model.mutable_gradient()->mutable_silhouette()->set_kind(v1::Silhouette::BULGE);
       model.mutable_gradient()->mutable_silhouette()->set_k(kBulgeStrength);
       break;
     case ImportOperator::kSum:
-      add_children(count, *model.mutable_sum());
+      add_children(pieces, *model.mutable_sum());
       break;
     case ImportOperator::kMax:
-      add_children(count, *model.mutable_max());
+      add_children(pieces, *model.mutable_max());
       break;
     case ImportOperator::kRicci:
-      add_children(count, *model.mutable_ricci());
+      add_children(pieces, *model.mutable_ricci());
       model.mutable_ricci()->set_exponent(kRicciExponent);
       break;
   }

@@ -2,6 +2,8 @@
 
 #include <absl/status/status.h>
 
+#include <vector>
+
 #include "isofield/import.h"
 
 namespace isofield {
@@ -9,10 +11,13 @@ namespace isofield {
 // INVALID_ARGUMENT: an option out of its range.
 absl::Status check(const ImportOptions& options);
 
-// The range of a piece of this radius, where `factor` is the format's own.
+// The range of a piece of this radius, where `factor` is the format's own; a length that the server takes.
 double range_of(const ImportOptions& options, double factor, double radius);
 
-// Adds the operator over all nodes that the scene has, and makes it the root. A single piece stays alone.
+// The indices of the nodes that are pieces: all but those that a transform places, which is a piece in their place.
+std::vector<int> find_pieces(const v1::Scene& scene);
+
+// Adds the operator over all pieces that the scene has, and makes it the root. A single piece stays alone.
 void join_pieces(ImportOperator op, v1::Scene& scene);
 
 }  // namespace isofield

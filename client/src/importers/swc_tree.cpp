@@ -34,11 +34,15 @@ void cut_cycles(std::vector<SwcSample>& samples, ImportReport& report) {
 }  // namespace
 
 void link_parents(std::vector<SwcSample>& samples, ImportReport& report) {
-  absl::flat_hash_map<long long, int> index_of;
+  absl::flat_hash_map<SwcId, int> index_of;
   index_of.reserve(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) index_of.emplace(samples[i].id, static_cast<int>(i));
   for (SwcSample& sample : samples) {
     if (sample.parent_id < 0) continue;
+    if (sample.parent_id == sample.id) {
+      note(report, "sample is its own parent, which makes it a root", sample.line_number, sample.line, false);
+      continue;
+    }
     const auto parent = index_of.find(sample.parent_id);
     if (parent == index_of.end()) {
       note(report, "sample made a root: its parent is not in the file or was dropped", sample.line_number, sample.line);

@@ -1,10 +1,13 @@
 #include "importers/text.h"
 
 #include <absl/strings/ascii.h>
+#include <absl/strings/numbers.h>
 #include <absl/strings/str_cat.h>
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace isofield {
 
@@ -52,15 +55,33 @@ std::optional<double> parse_double(absl::string_view field) {
 }
 
 std::optional<double> parse_length(absl::string_view field) {
-  constexpr double kLargest = 1e15;
   const auto value = parse_double(field);
-  return value && std::abs(*value) <= kLargest ? value : std::nullopt;
+  return value && std::abs(*value) <= kLargestLength ? value : std::nullopt;
+}
+
+std::optional<absl::int128> parse_integer64(absl::string_view field) {
+  // A fraction of zeros, such as that of "17.0", changes nothing. All digits of a plain number count: a double does not
+  // tell neighbours beyond 2^53 apart.
+  absl::string_view digits = field;
+  const std::size_t point = field.find('.');
+  if (point != absl::string_view::npos && point > 0 &&
+      field.find_first_not_of('0', point + 1) == absl::string_view::npos) {
+    digits = field.substr(0, point);
+  }
+  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
+  std::int64_t whole = 0;
+  if (absl::SimpleAtoi(digits, &whole)) return whole;
+  std::uint64_t large = 0;
+  if (absl::SimpleAtoi(digits, &large)) return large;
+  const auto value = parse_double(field);
+  // NaN fails the comparison.
+  if (!value || !(std::abs(*value) <= 9007199254740992.0) || std::trunc(*value) != *value) return std::nullopt;
+  return static_cast<std::int64_t>(*value);
 }
 
 std::optional<long long> parse_integer(absl::string_view field) {
-  const auto value = parse_double(field);
-  // Beyond 2^53 a double does not tell neighbours apart. NaN fails the comparison.
-  if (!value || !(std::abs(*value) <= 9007199254740992.0) || std::trunc(*value) != *value) return std::nullopt;
+  const auto value = parse_integer64(field);
+  if (!value || *value > std::numeric_limits<long long>::max()) return std::nullopt;
   return static_cast<long long>(*value);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <absl/numeric/int128.h>
 #include <absl/strings/string_view.h>
 
 #include <cstddef>
@@ -31,10 +32,15 @@ std::vector<absl::string_view> split_fields(absl::string_view line);
 
 // The whole field as a number; infinities and NaN included. Nothing: not a number.
 std::optional<double> parse_double(absl::string_view field);
-// As parse_double, and of a size whose squares float32 can hold: what a scene's lengths must be.
+// The least length and the largest length or coordinate that the server takes in a scene.
+inline constexpr double kLeastLength = 1e-9;
+inline constexpr double kLargestLength = 1e9;
+// As parse_double, and of a magnitude that a scene's coordinates may have.
 std::optional<double> parse_length(absl::string_view field);
-// Whole numbers, also written as "17.0".
+// Whole numbers, also written as "17.0" or, up to 2^53, as "1.7e1": of 64 bits with a sign, and of 64 bits with or
+// without one.
 std::optional<long long> parse_integer(absl::string_view field);
+std::optional<absl::int128> parse_integer64(absl::string_view field);
 
 // "line 17: TEXT", cut to a readable length.
 std::string quote_line(std::size_t number, absl::string_view line);

@@ -1,0 +1,238 @@
+#include "importers/swc_body.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "importers/import_options.h"
+#include "importers/swc_pieces.h"
+#include "importers/text.h"
+
+namespace isofield {
+namespace {
+
+void set(const Vector3& from, google::protobuf::RepeatedField<double>& to) {
+  to.Assign(from.begin(), from.end());
+}
+
+Solid ball(const Vector3& center, double radius) {
+  Solid solid;
+  solid.a = solid.b = center;
+  solid.radius_a = solid.radius_b = radius;
+  return solid;
+}
+
+Solid frustum(const SwcSample& a, const SwcSample& b) {
+  Solid solid;
+  solid.a = a.center;
+  solid.b = b.center;
+  solid.radius_a = a.radius;
+  solid.radius_b = b.radius;
+  return solid;
+}
+
+double third_axis(const Contour& contour) {
+  return (contour.major_length + contour.minor_length) / 2;
+}
+
+Solid ellipsoid(const Contour& contour) {
+  Solid solid = ball({}, 1);
+  solid.origin = contour.center;
+  solid.to_local = {scale(contour.major, 1 / contour.major_length), scale(contour.minor, 1 / contour.minor_length),
+                    scale(contour.normal, 1 / third_axis(contour))};
+  return solid;
+}
+
+// What makes circles of the ellipses of two neighbouring contours, and moves them so far apart that the round ends of a
+// segment between them stand out by a quarter of the distance only.
+struct Stretch {
+  double aside = 1, up = 1;
+};
+
+const Contour& wider(const Contour& a, const Contour& b) {
+  return a.major_length * a.minor_length >= b.major_length * b.minor_length ? a : b;
+}
+
+double round_radius(const Contour& contour, double aside) {
+  return std::sqrt(contour.major_length * contour.minor_length * aside);
+}
+
+Stretch stretch_between(const Contour& below, const Contour& above) {
+  // The map must stay far from one that the server refuses.
+  constexpr double kMost = 1e3;
+  const Contour& widest = wider(below, above);
+  Stretch stretch;
+  stretch.aside = std::min(kMost, widest.major_length / widest.minor_length);
+  const double distance = std::abs(dot(widest.normal, subtract(above.center, below.center)));
+  stretch.up = std::clamp(4 * round_radius(widest, stretch.aside) / distance, 1.0, kMost);
+  return stretch;
+}
+
+Solid hull(const Contour& below, const Contour& above) {
+  const Stretch stretch = stretch_between(below, above);
+  const Contour& widest = wider(below, above);
+  Solid solid;
+  solid.origin = widest.center;
+  solid.to_local = {widest.major, scale(widest.minor, stretch.aside), scale(widest.normal, stretch.up)};
+  solid.a = solid.local(below.center);
+  solid.b = solid.local(above.center);
+  solid.radius_a = round_radius(below, stretch.aside);
+  solid.radius_b = round_radius(above, stretch.aside);
+  return solid;
+}
+
+// Adds a node that places the last node of the scene: the columns of its matrix are `axes`.
+void add_transform(const std::array<Vector3, 3>& axes, const Vector3& origin, v1::Scene& scene) {
+  const std::string child = absl::StrCat("#", scene.nodes_size() - 1);
+  v1::Transform& transform = *scene.add_nodes()->mutable_transform();
+  transform.set_child(child);
+  for (int row = 0; row < 3; ++row) {
+    for (const Vector3& axis : axes) transform.add_matrix(axis[row]);
+    transform.add_matrix(origin[row]);
+  }
+}
+
+// The coordinate axis that a unit vector lies along, to rounding; 3 for none.
+std::size_t axis_of(const Vector3& unit) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::abs(unit[axis]) > 1 - 1e-12) return axis;
+  }
+  return 3;
+}
+
+void add_ellipsoid(const Contour& contour, const ImportOptions& options, v1::Scene& scene) {
+  v1::Ellipsoid& shape = *scene.add_nodes()->mutable_ellipsoid();
+  shape.set_range(range_of(options, kSwcRangeFactor, contour.minor_length));
+  Vector3 lengths = {contour.major_length, contour.minor_length, third_axis(contour)};
+  const std::size_t major = axis_of(contour.major), minor = axis_of(contour.minor);
+  if (major < 3 && minor < 3) {
+    Vector3 placed{};
+    placed[major] = lengths[0];
+    placed[minor] = lengths[1];
+    placed[3 - major - minor] = lengths[2];
+    set(contour.center, *shape.mutable_center());
+    set(placed, *shape.mutable_semi_axes());
+    return;
+  }
+  set(lengths, *shape.mutable_semi_axes());
+  add_transform({contour.major, contour.minor, contour.normal}, contour.center, scene);
+}
+
+void add_hull(const Contour& below, const Contour& above, const ImportOptions& options, v1::Scene& scene) {
+  const Solid solid = hull(below, above);
+  const Stretch stretch = stretch_between(below, above);
+  const Contour& widest = wider(below, above);
+  v1::Segment& segment = *scene.add_nodes()->mutable_segment();
+  set(solid.a, *segment.mutable_a());
+  set(solid.b, *segment.mutable_b());
+  segment.set_radius_a(solid.radius_a);
+  segment.set_radius_b(solid.radius_b);
+  // The map shortens the range across the planes, where it must remain a length that the server takes.
+  const double range = range_of(options, kSwcRangeFactor, std::max(solid.radius_a, solid.radius_b));
+  segment.set_range(std::max(range, 2 * kLeastLength * std::max(stretch.aside, stretch.up)));
+  add_transform({widest.major, scale(widest.minor, 1 / stretch.aside), scale(widest.normal, 1 / stretch.up)},
+                solid.origin, scene);
+}
+
+// The two contours between which a point lies, or the nearest two: the index of the lower one.
+std::size_t contour_below(const Soma& soma, const Vector3& point) {
+  const Vector3 normal = soma.contours.front().normal;
+  const auto above = std::upper_bound(
+      soma.contours.begin(), soma.contours.end(), dot(normal, point),
+      [&](double depth, const Contour& contour) { return depth < dot(normal, contour.center); });
+  const auto index = std::max<std::ptrdiff_t>(1, above - soma.contours.begin()) - 1;
+  return std::min(static_cast<std::size_t>(index), soma.contours.size() - 2);
+}
+
+Joint join_contours(const Soma& soma, const Vector3& outer) {
+  Joint joint;
+  if (soma.contours.size() == 1) {
+    joint.target = soma.contours.front().center;
+    joint.width = soma.contours.front().minor_length;
+    joint.solids = {ellipsoid(soma.contours.front())};
+    return joint;
+  }
+  const std::size_t i = contour_below(soma, outer);
+  const Contour& below = soma.contours[i];
+  const Contour& above = soma.contours[i + 1];
+  const Vector3 step = subtract(above.center, below.center);
+  const double rise = dot(below.normal, step);
+  const double part = dot(below.normal, subtract(outer, below.center)) / rise;
+  joint.target = between(below.center, above.center, std::clamp(part, 0.0, 1.0));
+  joint.width = std::max(below.minor_length, above.minor_length);
+  joint.solids = {hull(below, above)};
+  return joint;
+}
+
+}  // namespace
+
+Vector3 Solid::local(const Vector3& point) const {
+  const Vector3 arm = subtract(point, origin);
+  return {dot(to_local[0], arm), dot(to_local[1], arm), dot(to_local[2], arm)};
+}
+
+bool Solid::contains(const Vector3& point) const {
+  // Points on the surface count as inside, whatever their rounding.
+  constexpr double kTolerance = 1 + 1e-9;
+  const Vector3 p = local(point), axis = subtract(b, a);
+  const double height = length(axis), slope = height > 0 ? (radius_b - radius_a) / height : 0;
+  // One ball contains the other.
+  if (!(height > 0) || std::abs(slope) >= 1) {
+    return distance(p, radius_a >= radius_b ? a : b) <= std::max(radius_a, radius_b) * kTolerance;
+  }
+  // Of all balls between the two, the one that reaches the point furthest.
+  const double along = dot(subtract(p, a), axis) / height;
+  const double aside = std::sqrt(std::max(0.0, dot(subtract(p, a), subtract(p, a)) - along * along));
+  const double t = std::clamp((along + aside * slope / std::sqrt(1 - slope * slope)) / height, 0.0, 1.0);
+  return distance(p, between(a, b, t)) <= (radius_a + t * (radius_b - radius_a)) * kTolerance;
+}
+
+bool Joint::contains(const Vector3& point) const {
+  return std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) { return solid.contains(point); });
+}
+
+Vector3 Joint::surface(const Vector3& inner, const Vector3& outer) const {
+  if (!contains(inner)) return inner;
+  constexpr int kHalvings = 40;
+  double inside = 0, outside = 1;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (inside + outside) / 2;
+    (contains(between(inner, outer, middle)) ? inside : outside) = middle;
+  }
+  return between(inner, outer, inside);
+}
+
+void add_soma(const Soma& soma, const std::vector<SwcSample>& samples, const ImportOptions& options, v1::Scene& scene) {
+  const SwcSample& first = samples[soma.members.front()];
+  if (soma.form == SomaForm::kSphere) {
+    add_sphere(first, options, scene);
+  } else if (soma.contours.size() == 1) {
+    add_ellipsoid(soma.contours.front(), options, scene);
+    scene.mutable_nodes()->rbegin()->set_name(piece_name(first));
+  } else {
+    for (std::size_t i = 0; i + 1 < soma.contours.size(); ++i) {
+      const Contour& above = soma.contours[i + 1];
+      add_hull(soma.contours[i], above, options, scene);
+      scene.mutable_nodes()->rbegin()->set_name(piece_name(samples[above.first_point]));
+    }
+  }
+}
+
+Joint join_soma(const Somata& somata, int at, const Vector3& outer, const std::vector<SwcSample>& samples) {
+  const Soma& soma = somata.all[somata.soma_of[at]];
+  if (soma.form == SomaForm::kContours) return join_contours(soma, outer);
+  const SwcSample& sample = samples[soma.form == SomaForm::kSphere ? soma.members.front() : at];
+  Joint joint;
+  joint.target = sample.center;
+  joint.width = sample.radius;
+  joint.solids = {ball(sample.center, sample.radius)};
+  if (soma.form == SomaForm::kFrusta) {
+    const int parent = sample.parent, child = somata.first_child[at];
+    if (parent != kNoParent && is_soma(samples[parent])) joint.solids.push_back(frustum(samples[parent], sample));
+    if (child != kNoParent) joint.solids.push_back(frustum(sample, samples[child]));
+  }
+  return joint;
+}
+
+}  // namespace isofield

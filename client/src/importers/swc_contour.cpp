@@ -1,0 +1,200 @@
+#include "importers/swc_contour.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace isofield {
+namespace {
+
+// Parts of the mean distance from the centre.
+constexpr double kPlaneTolerance = 0.1;
+constexpr double kDepthTolerance = 1e-3;
+// 4 pi area / perimeter^2 is 1 for a circle, 0.24 for an ellipse of axes 10 : 1, and 0 for a line there and back.
+constexpr double kLeastRoundness = 0.15;
+// An order of angles makes a polygon of any points; zigzags are no outlines.
+constexpr double kLeastRoundnessByAngle = 0.4;
+// The part of an outline that its closing edge may be: half of it for a triangle. A half circle has 0.64.
+constexpr double kLargestGap = 0.55;
+
+Vector3 mean(const std::vector<Vector3>& points) {
+  Vector3 sum{};
+  for (const Vector3& point : points) sum = add(sum, point);
+  return scale(sum, 1.0 / static_cast<double>(points.size()));
+}
+
+double mean_distance(const std::vector<Vector3>& points, const Vector3& center) {
+  double sum = 0;
+  for (const Vector3& point : points) sum += distance(point, center);
+  return sum / static_cast<double>(points.size());
+}
+
+// The normal of the plane through the centre, the point furthest from it and the one that spans the widest triangle
+// with both; nothing where all lie on a line.
+std::optional<Vector3> plane_normal(const std::vector<Vector3>& points, const Vector3& center) {
+  const auto by_distance = [&](const Vector3& a, const Vector3& b) { return distance(a, center) < distance(b, center); };
+  const Vector3 arm = subtract(*std::max_element(points.begin(), points.end(), by_distance), center);
+  Vector3 normal{};
+  for (const Vector3& point : points) {
+    const Vector3 candidate = cross(arm, subtract(point, center));
+    if (length(candidate) > length(normal)) normal = candidate;
+  }
+  if (!(length(normal) > 1e-3 * dot(arm, arm))) return std::nullopt;
+  return scale(normal, 1 / length(normal));
+}
+
+using Point2 = std::array<double, 2>;
+
+// Area and perimeter of the closed polygon, and its moments about the origin.
+struct Polygon {
+  double area = 0, perimeter = 0, closing = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+
+  explicit Polygon(const std::vector<Point2>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Point2& p = points[i];
+      const Point2& q = points[(i + 1) % points.size()];
+      closing = std::hypot(q[0] - p[0], q[1] - p[1]);
+      perimeter += closing;
+      const double twice = p[0] * q[1] - q[0] * p[1];
+      area += twice / 2;
+      x += twice * (p[0] + q[0]) / 6;
+      y += twice * (p[1] + q[1]) / 6;
+      xx += twice * (p[0] * p[0] + p[0] * q[0] + q[0] * q[0]) / 12;
+      yy += twice * (p[1] * p[1] + p[1] * q[1] + q[1] * q[1]) / 12;
+      xy += twice * (2 * (p[0] * p[1] + q[0] * q[1]) + p[0] * q[1] + q[0] * p[1]) / 24;
+    }
+  }
+
+  double roundness() const { return 4 * std::numbers::pi * std::abs(area) / (perimeter * perimeter); }
+};
+
+// The points by their depth along the normal, in runs of equal depth. Within a run they keep their order.
+std::vector<std::vector<int>> runs_of_depth(const std::vector<Vector3>& points, const Vector3& normal) {
+  const Vector3 middle = mean(points);
+  const double tolerance = kDepthTolerance * mean_distance(points, middle);
+  std::vector<double> depths;
+  for (const Vector3& point : points) depths.push_back(dot(normal, subtract(point, middle)));
+  std::vector<int> by_depth(points.size());
+  std::iota(by_depth.begin(), by_depth.end(), 0);
+  std::stable_sort(by_depth.begin(), by_depth.end(), [&](int a, int b) { return depths[a] < depths[b]; });
+  std::vector<std::vector<int>> runs;
+  for (std::size_t k = 0; k < by_depth.size(); ++k) {
+    if (k == 0 || depths[by_depth[k]] - depths[by_depth[k - 1]] > tolerance) runs.emplace_back();
+    runs.back().push_back(by_depth[k]);
+  }
+  for (auto& run : runs) std::sort(run.begin(), run.end());
+  return runs;
+}
+
+// One contour a run; nothing where a run is none, or where more than a fifth of the points lie alone at their depth.
+std::vector<Contour> fit_runs(const std::vector<Vector3>& points, const std::vector<std::vector<int>>& runs,
+                              bool in_order) {
+  std::vector<Contour> contours;
+  std::size_t alone = 0;
+  for (const auto& run : runs) {
+    if (run.size() < 3) {
+      alone += run.size();
+      if (5 * alone > points.size()) return {};
+      continue;
+    }
+    std::vector<Vector3> members;
+    for (const int i : run) members.push_back(points[i]);
+    auto contour = fit_contour(members, in_order);
+    if (!contour) return {};
+    contour->first_point = run.front();
+    contours.push_back(*contour);
+  }
+  return contours;
+}
+
+}  // namespace
+
+std::optional<Contour> fit_contour(const std::vector<Vector3>& points, bool in_order) {
+  if (points.size() < 3) return std::nullopt;
+  const Vector3 middle = mean(points);
+  const double extent = mean_distance(points, middle);
+  const auto normal = plane_normal(points, middle);
+  if (!normal) return std::nullopt;
+  const bool is_flat = std::all_of(points.begin(), points.end(), [&](const Vector3& point) {
+    return std::abs(dot(*normal, subtract(point, middle))) <= kPlaneTolerance * extent;
+  });
+  if (!is_flat) return std::nullopt;
+
+  // Any frame of the plane, in units of the extent.
+  const std::size_t axis = std::abs((*normal)[0]) < 0.6 ? 0 : 1;
+  Vector3 u{};
+  u[axis] = 1;
+  u = subtract(u, scale(*normal, dot(u, *normal)));
+  u = scale(u, 1 / length(u));
+  const Vector3 v = cross(*normal, u);
+  std::vector<Point2> flat;
+  for (const Vector3& point : points) {
+    const Vector3 arm = scale(subtract(point, middle), 1 / extent);
+    flat.push_back({dot(arm, u), dot(arm, v)});
+  }
+  if (!in_order) {
+    std::sort(flat.begin(), flat.end(), [](const Point2& a, const Point2& b) {
+      return std::atan2(a[1], a[0]) < std::atan2(b[1], b[0]);
+    });
+  }
+  const Polygon polygon(flat);
+  if (!(polygon.roundness() >= (in_order ? kLeastRoundness : kLeastRoundnessByAngle))) return std::nullopt;
+  if (in_order && polygon.closing > kLargestGap * (polygon.perimeter - polygon.closing)) return std::nullopt;
+
+  // An ellipse's second moments about its centre are its area times a quarter of the squared semi-axes.
+  const double x = polygon.x / polygon.area, y = polygon.y / polygon.area;
+  const double xx = polygon.xx / polygon.area - x * x, yy = polygon.yy / polygon.area - y * y;
+  const double xy = polygon.xy / polygon.area - x * y;
+  const double half_sum = (xx + yy) / 2, half_difference = std::hypot((xx - yy) / 2, xy);
+  // Outlines that cross themselves can have moments that no area has.
+  if (!(half_sum - half_difference > 1e-4)) return std::nullopt;
+  const double a = 2 * std::sqrt(half_sum + half_difference), b = 2 * std::sqrt(half_sum - half_difference);
+  // A circle has no longer axis: any turn would do, and none keeps the frame.
+  const double turn = half_difference > 1e-9 * half_sum ? std::atan2(2 * xy, xx - yy) / 2 : 0;
+  const double cosine = std::cos(turn), sine = std::sin(turn);
+  double size = 0;
+  for (const Point2& p : flat) {
+    const double dx = p[0] - x, dy = p[1] - y;
+    size += std::hypot((cosine * dx + sine * dy) / a, (cosine * dy - sine * dx) / b);
+  }
+  size *= extent / static_cast<double>(flat.size());
+
+  Contour contour;
+  contour.center = add(middle, add(scale(u, extent * x), scale(v, extent * y)));
+  contour.major = add(scale(u, cosine), scale(v, sine));
+  contour.minor = subtract(scale(v, cosine), scale(u, sine));
+  contour.normal = *normal;
+  contour.major_length = a * size;
+  contour.minor_length = b * size;
+  return contour;
+}
+
+std::vector<Contour> fit_contours(const std::vector<Vector3>& points, bool in_order) {
+  if (points.size() < 6) return {};
+  std::vector<Vector3> normals = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+  // The first points of a contour span the plane of sections that were turned.
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    const Vector3 a = subtract(points[1], points[0]), b = subtract(points[i], points[0]);
+    const Vector3 normal = cross(a, b);
+    if (!(length(normal) > 1e-2 * length(a) * length(b))) continue;
+    normals.push_back(scale(normal, 1 / length(normal)));
+    break;
+  }
+  for (const Vector3& normal : normals) {
+    auto contours = fit_runs(points, runs_of_depth(points, normal), in_order);
+    if (contours.size() < 2) continue;
+    for (Contour& contour : contours) face(normal, contour);
+    return contours;
+  }
+  return {};
+}
+
+void face(const Vector3& direction, Contour& contour) {
+  if (dot(contour.normal, direction) >= 0) return;
+  contour.normal = scale(contour.normal, -1);
+  contour.minor = scale(contour.minor, -1);
+}
+
+}  // namespace isofield

@@ -1,0 +1,212 @@
+#include "importers/swc_soma.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "importers/import_report.h"
+
+namespace isofield {
+namespace {
+
+class SomaFinder {
+ public:
+  SomaFinder(const std::vector<int>& order, std::vector<SwcSample>& samples, ImportReport& report)
+      : samples_(samples), report_(report), soma_children_(samples.size(), 0) {
+    found_.soma_of.assign(samples.size(), kNoSoma);
+    found_.first_child.assign(samples.size(), kNoParent);
+    found_.outlines.assign(samples.size(), false);
+    for (const int i : order) {
+      if (!is_soma(samples[i])) continue;
+      const int parent = samples[i].parent;
+      const bool continues = parent != kNoParent && is_soma(samples[parent]);
+      if (!continues) found_.all.emplace_back();
+      found_.soma_of[i] = continues ? found_.soma_of[parent] : static_cast<int>(found_.all.size()) - 1;
+      found_.all[found_.soma_of[i]].members.push_back(i);
+      if (continues && soma_children_[parent]++ == 0) found_.first_child[parent] = i;
+    }
+  }
+
+  Somata run() {
+    for (Soma& soma : found_.all) decide(soma);
+    join_outlines();
+    for (const Soma& soma : found_.all) {
+      if (!soma.members.empty()) tell(soma);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void decide(Soma& soma) {
+    if (is_at_one_place(soma)) {
+      soma.form = SomaForm::kSphere;
+    } else if (soma.members.size() == 3 && is_sphere_of_three(soma)) {
+      soma.form = SomaForm::kSphere;
+    } else if (is_outline(soma)) {
+      soma.form = SomaForm::kContours;
+      for (const int i : soma.members) found_.outlines[i] = true;
+    } else {
+      soma.form = SomaForm::kFrusta;
+    }
+  }
+
+  // Samples so near each other that no edge between them has a length; the first one gets the largest radius.
+  bool is_at_one_place(const Soma& soma) {
+    SwcSample& first = samples_[soma.members.front()];
+    double radius = 0, extent = 0;
+    for (const int i : soma.members) {
+      radius = std::max(radius, samples_[i].radius);
+      extent = std::max(extent, distance(samples_[i].center, first.center));
+    }
+    if (extent > 1e-6 * radius) return false;
+    first.radius = radius;
+    return true;
+  }
+
+  // The radii of the three are equal to the distance, or state nothing: 0, or as thin as an outline.
+  bool is_sphere_of_three(const Soma& soma) {
+    constexpr double kTolerance = 0.05;
+    const int center = soma.members[0];
+    if (soma_children_[center] != 2) return false;
+    const Vector3 middle = samples_[center].center;
+    const Vector3 first = subtract(samples_[soma.members[1]].center, middle);
+    const Vector3 second = subtract(samples_[soma.members[2]].center, middle);
+    const double radius = (length(first) + length(second)) / 2;
+    if (!(length(add(first, second)) <= 2 * kTolerance * radius) || radius < kLeast || radius > kMost) return false;
+    const auto fits = [&](int i) {
+      const double stated = samples_[i].radius;
+      return stated <= kThin * radius || std::abs(stated - radius) <= kTolerance * radius;
+    };
+    if (!std::all_of(soma.members.begin(), soma.members.end(), fits)) return false;
+    if (samples_[center].radius <= kThin * radius) samples_[center].radius = radius;
+    for (const int i : {soma.members[1], soma.members[2]}) {
+      found_.outlines[i] = true;
+      samples_[i].radius = samples_[center].radius;
+    }
+    return true;
+  }
+
+  bool is_outline(Soma& soma) const {
+    std::vector<int> outer = soma.members;
+    // The centre of a star, or a first sample in the middle of the others, is no part of the outline.
+    const bool is_star = soma_children_[outer.front()] >= 3;
+    if (is_star || is_in_the_middle(soma)) outer.erase(outer.begin());
+    const bool branches = std::any_of(outer.begin(), outer.end(), [&](int i) { return soma_children_[i] > 1; });
+    std::vector<Vector3> points;
+    for (const int i : outer) points.push_back(samples_[i].center);
+    for (const bool in_order : {true, false}) {
+      if (in_order ? is_star : !is_star && !branches) continue;
+      auto contours = fit_contours(points, in_order);
+      if (const auto contour = fit_contour(points, in_order)) contours = {*contour};
+      const bool are_thin = std::all_of(contours.begin(), contours.end(), [&](const Contour& contour) {
+        return median_radius(outer) <= kThin * std::sqrt(contour.major_length * contour.minor_length) &&
+               contour.minor_length >= kLeast && contour.major_length <= kMost;
+      });
+      if (contours.empty() || !are_thin) continue;
+      // Of the two sides of a single contour, the normal takes the one that pictures are seen from.
+      if (contours.size() == 1) face({1e-6, 1e-3, 1}, contours.front());
+      for (Contour& contour : contours) contour.first_point = outer[contour.first_point];
+      soma.contours = std::move(contours);
+      return true;
+    }
+    return false;
+  }
+
+  bool is_in_the_middle(const Soma& soma) const {
+    const Vector3 first = samples_[soma.members.front()].center;
+    const double others = static_cast<double>(soma.members.size()) - 1;
+    Vector3 middle{};
+    for (const int i : soma.members) middle = add(middle, scale(subtract(samples_[i].center, first), 1 / others));
+    double extent = 0;
+    for (const int i : soma.members) extent += distance(samples_[i].center, first) / others;
+    return soma.members.size() > 3 && length(middle) <= 0.3 * extent;
+  }
+
+  double median_radius(const std::vector<int>& members) const {
+    std::vector<double> radii;
+    for (const int i : members) radii.push_back(samples_[i].radius);
+    std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
+    return radii[radii.size() / 2];
+  }
+
+  // An outline of its own tree belongs to the one before it in the file where the two lie above each other, no further
+  // apart than the body is wide.
+  void join_outlines() {
+    Soma* open = nullptr;
+    for (Soma& soma : found_.all) {
+      if (soma.form != SomaForm::kContours) continue;
+      if (open == nullptr || !lies_above(open->contours.back(), soma.contours.front())) {
+        open = &soma;
+        continue;
+      }
+      for (Contour& contour : soma.contours) {
+        face(open->contours.front().normal, contour);
+        open->contours.push_back(contour);
+      }
+      for (const int i : soma.members) found_.soma_of[i] = static_cast<int>(open - found_.all.data());
+      open->members.insert(open->members.end(), soma.members.begin(), soma.members.end());
+      soma.members.clear();
+      soma.contours.clear();
+    }
+    for (Soma& soma : found_.all) {
+      if (soma.contours.size() < 2) continue;
+      const Vector3 normal = soma.contours.front().normal;
+      std::stable_sort(soma.contours.begin(), soma.contours.end(), [&](const Contour& a, const Contour& b) {
+        return dot(normal, a.center) < dot(normal, b.center);
+      });
+    }
+  }
+
+  static bool lies_above(const Contour& below, const Contour& above) {
+    const double width = std::min(below.major_length, above.major_length);
+    const Vector3 step = subtract(above.center, below.center);
+    const double depth = std::abs(dot(step, below.normal));
+    const double aside = std::sqrt(std::max(0.0, dot(step, step) - depth * depth));
+    return std::abs(dot(below.normal, above.normal)) > 0.99 && aside < width && depth > 1e-3 * width &&
+           depth < 2 * width;
+  }
+
+  void tell(const Soma& soma) {
+    const SwcSample& first = samples_[soma.members.front()];
+    const auto remark = [&](const char* what) { note(report_, what, first.line_number, first.line, false); };
+    switch (soma.form) {
+      case SomaForm::kSphere:
+        if (soma.members.size() == 1) return remark("soma of one sample: made a sphere");
+        if (!found_.outlines[soma.members[1]]) return remark("soma of samples at one place: made a sphere");
+        remark("soma of three samples, as NeuroMorpho writes it: made a sphere of the same area");
+        for (const int i : {soma.members[1], soma.members[2]}) {
+          note(report_, "sample left out: it only states the diameter of the soma", samples_[i].line_number,
+               samples_[i].line, false);
+        }
+        return;
+      case SomaForm::kContours:
+        return remark(soma.contours.size() == 1
+                          ? "soma outlined by a contour: made an ellipsoid, whose third axis is the mean of the two"
+                          : "soma outlined by contours at several depths: made the hull of each two neighbours, blended");
+      case SomaForm::kFrusta:
+        break;
+    }
+    if (soma.members.size() == 2) return remark("soma of two samples: made a capsule");
+    const bool branches =
+        std::any_of(soma.members.begin(), soma.members.end(), [&](int i) { return soma_children_[i] > 1; });
+    remark(branches ? "soma that branches: made a frustum with round ends for each edge"
+                    : "soma of a chain of samples: made a stack of frusta with round ends");
+  }
+
+  // Radii below this part of the extent are the width of a pen.
+  static constexpr double kThin = 0.3;
+  // Outlines that are smaller or larger might leave what a scene can hold when they are turned and stretched.
+  static constexpr double kLeast = 1e-6, kMost = 1e8;
+
+  std::vector<SwcSample>& samples_;
+  ImportReport& report_;
+  std::vector<int> soma_children_;
+  Somata found_;
+};
+
+}  // namespace
+
+Somata find_somata(const std::vector<int>& order, std::vector<SwcSample>& samples, ImportReport& report) {
+  return SomaFinder(order, samples, report).run();
+}
+
+}  // namespace isofield
