@@ -1,6 +1,8 @@
 #include "json_text.h"
 
+#include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
+#include <absl/strings/strip.h>
 #include <google/protobuf/util/json_util.h>
 
 #include <algorithm>
@@ -9,6 +11,8 @@ namespace isofield {
 namespace {
 
 namespace json = google::protobuf::util;
+
+constexpr absl::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 // The parser quotes the neighbourhood of a syntax error on a second line and points at it on a third. Says where in
 // the text that is, or nothing when the quotation is not found exactly once.
@@ -29,10 +33,24 @@ std::string place_of(const std::string& text, const std::string& message) {
 
 absl::Status parse_json(const std::string& text, const std::string& name, const std::string& what,
                         google::protobuf::Message& message) {
+  if (absl::StartsWith(text, kByteOrderMark)) return parse_json(text.substr(kByteOrderMark.size()), name, what, message);
   const auto status = json::JsonStringToMessage(text, &message, json::JsonParseOptions());
   if (status.ok()) return absl::OkStatus();
   const std::string reason = status.message().ToString();
   return absl::InvalidArgumentError(absl::StrCat(name, place_of(text, reason), ": not ", what, " in JSON: ", reason));
+}
+
+bool is_json(absl::string_view content) {
+  absl::ConsumePrefix(&content, kByteOrderMark);
+  const std::size_t first = content.find_first_not_of(" \t\r\n");
+  return first != absl::string_view::npos && content[first] == '{';
+}
+
+absl::Status parse_file(const std::string& content, const std::string& name, const std::string& what,
+                        google::protobuf::Message& message) {
+  if (is_json(content) || !absl::EndsWithIgnoreCase(name, ".pb")) return parse_json(content, name, what, message);
+  if (message.ParseFromString(content)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(name, ": not a binary ", message.GetTypeName(), " message"));
 }
 
 absl::StatusOr<std::string> format_json(const google::protobuf::Message& message) {

@@ -1,8 +1,5 @@
 #include "isofield/operator_file.h"
 
-#include <absl/strings/match.h>
-#include <absl/strings/str_cat.h>
-
 #include "isofield/scene_file.h"
 #include "json_text.h"
 
@@ -12,11 +9,7 @@ absl::StatusOr<v1::Operator> read_operator_file(const std::string& path) {
   const auto data = read_file(path);
   if (!data.ok()) return data.status();
   v1::Operator message;
-  if (!absl::EndsWithIgnoreCase(path, ".pb")) {
-    if (auto status = parse_json(*data, path, "an operator", message); !status.ok()) return status;
-  } else if (!message.ParseFromString(*data)) {
-    return absl::InvalidArgumentError(absl::StrCat(path, ": not a binary isofield.v1.Operator message"));
-  }
+  if (auto status = parse_file(*data, path, "an operator", message); !status.ok()) return status;
   return message;
 }
 

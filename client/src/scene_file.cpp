@@ -1,6 +1,5 @@
 #include "isofield/scene_file.h"
 
-#include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 #include <sys/stat.h>
 
@@ -41,11 +40,8 @@ absl::StatusOr<v1::Scene> parse_scene_json(const std::string& text, const std::s
 absl::StatusOr<v1::Scene> read_scene_file(const std::string& path) {
   const auto data = read_file(path);
   if (!data.ok()) return data.status();
-  if (!absl::EndsWithIgnoreCase(path, ".pb")) return parse_scene_json(*data, path);
   v1::Scene scene;
-  if (!scene.ParseFromString(*data)) {
-    return absl::InvalidArgumentError(absl::StrCat(path, ": not a binary isofield.v1.Scene message"));
-  }
+  if (auto status = parse_file(*data, path, "a scene", scene); !status.ok()) return status;
   return scene;
 }
 

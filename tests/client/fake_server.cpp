@@ -4,7 +4,9 @@
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -33,12 +35,21 @@ void list(const Map& catalog, const std::string& after, std::size_t most, Respon
   }
 }
 
+std::vector<float> floats(const v1::Tensor& tensor) {
+  std::vector<float> numbers(tensor.data().size() / sizeof(float));
+  if (!numbers.empty()) std::memcpy(numbers.data(), tensor.data().data(), tensor.data().size());
+  return numbers;
+}
+
+float f(const float* p) {
+  return p[0] + 2 * p[1] + 3 * p[2];
+}
+
 void evaluate(const v1::Tensor& points, bool gradient, v1::Tensor& result) {
-  std::vector<float> xyz(points.data().size() / sizeof(float));
-  if (!xyz.empty()) std::memcpy(xyz.data(), points.data().data(), points.data().size());
+  const std::vector<float> xyz = floats(points);
   std::vector<float> out;
   for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
-    out.push_back(xyz[i] + 2 * xyz[i + 1] + 3 * xyz[i + 2]);
+    out.push_back(f(&xyz[i]));
     if (gradient) out.insert(out.end(), {1, 2, 3});
   }
   result.Clear();
@@ -385,6 +396,44 @@ class FakeServer::Operators : public v1::OperatorService::Service {
   FakeServer& owner_;
 };
 
+class FakeServer::Surfaces : public v1::SurfaceService::Service {
+ public:
+  explicit Surfaces(FakeServer& owner) : owner_(owner) {}
+
+  grpc::Status CastRays(grpc::ServerContext*, const v1::CastRaysRequest* request,
+                        v1::CastRaysResponse* response) override {
+    if (auto status = owner_.admit_read(); !status.ok()) return status;
+    const std::vector<float> origins = floats(request->origins()), directions = floats(request->directions());
+    std::vector<float> distances, positions, normals;
+    std::vector<std::uint32_t> nodes;
+    for (std::size_t i = 0; i + 2 < origins.size(); i += 3) {
+      const float* const o = &origins[i];
+      const float* const d = &directions[i];
+      const float along = d[0] + 2 * d[1] + 3 * d[2];
+      const float distance = (static_cast<float>(request->has_iso() ? request->iso() : 0.5) - f(o)) / along;
+      const bool hits = along != 0 && distance >= 0;
+      distances.push_back(hits ? distance : std::numeric_limits<float>::infinity());
+      nodes.push_back(hits ? 0 : 0xFFFFFFFF);
+      for (int axis = 0; axis < 3; ++axis) {
+        positions.push_back(hits ? o[axis] + distance * d[axis] : 0);
+        normals.push_back(hits ? -static_cast<float>(axis + 1) / std::sqrt(14.0f) : 0);
+      }
+    }
+    const std::size_t n = nodes.size();
+    const std::string inside(n, '\0');
+    fill(distances.data(), 4 * n, v1::Tensor::FLOAT32, {n, 1}, *response->mutable_distances());
+    fill(positions.data(), 12 * n, v1::Tensor::FLOAT32, {n, 3}, *response->mutable_positions());
+    fill(normals.data(), 12 * n, v1::Tensor::FLOAT32, {n, 3}, *response->mutable_normals());
+    fill(nodes.data(), 4 * n, v1::Tensor::UINT32, {n, 1}, *response->mutable_nodes());
+    fill(inside.data(), n, v1::Tensor::UINT8, {n, 1}, *response->mutable_inside());
+    response->add_names("a \"plane\", x");
+    return grpc::Status::OK;
+  }
+
+ private:
+  FakeServer& owner_;
+};
+
 grpc::Status FakeServer::admit_read() {
   ++reads;
   if (unavailable_for > 0) {
@@ -405,7 +454,8 @@ FakeServer::FakeServer(const std::string& address)
       fields_(std::make_unique<Fields>(*this)),
       meshes_(std::make_unique<Meshes>(*this)),
       infos_(std::make_unique<Infos>(*this)),
-      operators_(std::make_unique<Operators>(*this)) {
+      operators_(std::make_unique<Operators>(*this)),
+      surfaces_(std::make_unique<Surfaces>(*this)) {
   grpc::ServerBuilder builder;
   builder.AddListeningPort(address, grpc::InsecureServerCredentials());
   builder.RegisterService(scenes_.get());
@@ -413,6 +463,7 @@ FakeServer::FakeServer(const std::string& address)
   builder.RegisterService(meshes_.get());
   builder.RegisterService(infos_.get());
   builder.RegisterService(operators_.get());
+  builder.RegisterService(surfaces_.get());
   builder.SetMaxReceiveMessageSize(64 << 20);
   server_ = builder.BuildAndStart();
 }

@@ -13,11 +13,12 @@
 #include "isofield/v1/mesh_service.grpc.pb.h"
 #include "isofield/v1/operator_service.grpc.pb.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
+#include "isofield/v1/surface_service.grpc.pb.h"
 
 namespace isofield {
 
 // The contract, answered by one field: f(p) = x + 2y + 3z with gradient (1, 2, 3), whatever the scene. Its mesh is a
-// torus. A scene reference by name must be in the catalog. Every operator is the sum of its columns, every opening
+// torus, but rays meet the plane f = iso. A scene reference by name must be in the catalog. Every operator is the sum of its columns, every opening
 // theta = alpha / 4.
 class FakeServer {
  public:
@@ -51,6 +52,7 @@ class FakeServer {
   class Meshes;
   class Infos;
   class Operators;
+  class Surfaces;
 
   grpc::Status admit_read();
   grpc::Status find(const v1::SceneRef& reference);
@@ -64,6 +66,7 @@ class FakeServer {
   std::unique_ptr<v1::MeshService::Service> meshes_;
   std::unique_ptr<v1::InfoService::Service> infos_;
   std::unique_ptr<v1::OperatorService::Service> operators_;
+  std::unique_ptr<v1::SurfaceService::Service> surfaces_;
   std::unique_ptr<grpc::Server> server_;
 };
 

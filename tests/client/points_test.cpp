@@ -4,10 +4,11 @@
 
 #include <cstring>
 
+#include "excerpt.h"
 #include "isofield/scene_file.h"
-#include "points/line_reader.h"
 #include "points/point_reader.h"
 #include "points/result_writer.h"
+#include "points/table.h"
 #include "test_support.h"
 
 namespace isofield {
@@ -71,7 +72,7 @@ TEST_F(PointsTest, BadTextNamesFileLineAndExpectation) {
   EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,inf\n"), "finite"));
   EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,1e39\n"), "finite"));
   EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,1e999\n"), "finite"));
-  EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,3,4\n"), "no more"));
+  EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,3 4\n"), "expected three numbers"));
   EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,3x\n"), "expected three numbers"));
   EXPECT_TRUE(absl::StrContains(error("a.csv", "1,2,3\n" + std::string(2 << 20, '1')), "a.csv:2: a line longer"));
 }
@@ -92,32 +93,89 @@ TEST_F(PointsTest, TextLongerThanABlock) {
   for (int i = 0; i < 300000; ++i) ASSERT_EQ((*points)[3 * i + 1], static_cast<float>(2 * i));
 }
 
+TEST_F(PointsTest, LinesEndAtLfOrCrAndMayCrossBlocks) {
+  for (const char* const end : {"\n", "\r\n", "\r"}) {
+    std::string text = "x,y,z";
+    for (int i = 0; i < 150000; ++i) absl::StrAppend(&text, end, i, ",", 2 * i, ",-1");
+    const auto points = read("a.csv", text, 65536);
+    ASSERT_TRUE(points.ok()) << points.status();
+    ASSERT_EQ(points->size(), 450000u);
+    for (int i = 0; i < 150000; ++i) ASSERT_EQ((*points)[3 * i + 1], static_cast<float>(2 * i));
+  }
+  EXPECT_TRUE(absl::StrContains(error("a.csv", "x,y,z\r1,2,3\r4,5,f\r"), "a.csv:3:"));
+  EXPECT_TRUE(absl::StrContains(error("a.csv", "x,y,z\r\n\r\n4,5,f\r\n"), "a.csv:3:"));
+}
+
+TEST_F(PointsTest, RaysAreFoundByTheNamesOfTheirColumns) {
+  const auto vectors = [&](const std::string& text, VectorRole role, bool is_second = false) {
+    auto reader = open_points(write_file(directory_.path("r.csv"), text), {role, is_second});
+    Floats xyz;
+    const absl::Status status = reader.ok() ? (*reader)->read(10, xyz) : reader.status();
+    return status.ok() ? xyz : Floats();
+  };
+  using enum VectorRole;
+  const std::string rays = "dx,dy,dz,ox,oy,oz\n1,2,3,4,5,6\n", hits = "x,y,z,nx,ny,nz\n1,2,3,4,5,6\n";
+  EXPECT_EQ(vectors(rays, kOrigin), (Floats{4, 5, 6}));
+  EXPECT_EQ(vectors(rays, kDirection, true), (Floats{1, 2, 3}));
+  EXPECT_EQ(vectors(rays, kPosition), Floats());
+  EXPECT_EQ(vectors(hits, kOrigin), (Floats{1, 2, 3}));
+  EXPECT_EQ(vectors(hits, kDirection, true), (Floats{4, 5, 6}));
+  EXPECT_EQ(vectors("x,y,z\n1,2,3\n", kDirection), (Floats{1, 2, 3}));
+  EXPECT_EQ(vectors("x,y,z\n1,2,3\n", kDirection, true), Floats()) << "they are the origins";
+  EXPECT_EQ(vectors("1 2 3 4 5 6\n", kOrigin), (Floats{1, 2, 3}));
+  EXPECT_EQ(vectors("1 2 3 4 5 6\n", kDirection, true), (Floats{4, 5, 6}));
+  EXPECT_EQ(vectors("1 2 3\n", kDirection, true), Floats());
+}
+
 TEST_F(PointsTest, NumpyArrays) {
   const Floats two = {1, 2, 3, 4, 5, 6};
   const std::vector<double> doubles(two.begin(), two.end());
   EXPECT_EQ(*read("a.npy", npy("<f4", "(2, 3)", bytes(two))), two);
   EXPECT_EQ(*read("a.npy", npy("<f8", "(2, 3)", bytes(doubles), 2), 1), two);
   EXPECT_EQ(*read("a.npy", npy("<f8", "(2,3)", bytes(doubles), 3)), two);
+  EXPECT_EQ(*read("a.npy", npy("<f4", "(2L, 3L)", bytes(two))), two);
   EXPECT_EQ(*read("a.npy", npy("<f4", "(0, 3)", "")), Floats());
+  EXPECT_EQ(*read("a.npy", npy("<f4", "(2, 3)", bytes(Floats{1, 4, 2, 5, 3, 6}), 1, "True"), 1), two);
 }
 
 TEST_F(PointsTest, BadNumpyArraysAreRefused) {
   const std::string data = bytes(Floats{1, 2, 3, 4, 5, 6});
   EXPECT_TRUE(absl::StrContains(error("a.npy", "1,2,3\n"), "not a NumPy array"));
   EXPECT_TRUE(absl::StrContains(error("a.npy", ""), "not a NumPy array"));
-  EXPECT_TRUE(absl::StrContains(error("a.npy", npy(">f4", "(2, 3)", data)), "expected '<f4' or '<f8'"));
-  EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<i4", "(2, 3)", data)), "expected '<f4' or '<f8'"));
+  for (const char* type : {"<c8", "<f16", "|O", "|S4", "<M8[ns]", "", "<", "f", "<f99999999999"}) {
+    EXPECT_TRUE(absl::StrContains(error("a.npy", npy(type, "(2, 3)", data)), "expected numbers")) << type;
+  }
   EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(3, 2)", data)), "expected (n, 3)"));
   EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(6,)", data)), "expected (n, 3)"));
-  EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(-2, 3)", data)), "expected (n, 3)"));
-  EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(", data)), "expected (n, 3)"));
-  EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(2, 3)", data, 1, "True")), "Fortran"));
+  EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(2, 3, 1)", data)), "expected (n, 3)"));
+  EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "()", data)), "expected (n, 3)"));
+  for (const char* shape : {"(-2, 3)", "(", "(99999999999999999999, 3)", "6", "(2, 'a')", "((2,), 3)"}) {
+    EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", shape, data)), "damaged")) << shape;
+  }
+  EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(2, 3)", data, 1, "Maybe")), "damaged"));
+  EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", std::string(100, '('), data)), "damaged"));
   EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(2, 3)", data, 9)), "version"));
   EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(3, 3)", data)), "cut off"));
-  EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(99999999999999999999, 3)", data)), "expected (n, 3)"));
   EXPECT_TRUE(absl::StrContains(error("a.npy", npy("<f4", "(2, 3)", data).substr(0, 20)), "cut off"));
   EXPECT_TRUE(
       absl::StrContains(error("a.npy", npy("<f8", "(1, 3)", bytes(std::vector<double>{0, 1e300, 0}))), "row 0"));
+}
+
+TEST_F(PointsTest, TablesAreReadAgainByTheirNames) {
+  const Floats xyz = {0.1f, 2, -3, 4, 5, 6}, distances = {1, 2};
+  for (const char* const name : {"t.csv", "t.npy"}) {
+    Table table;
+    table.add("distance", std::span<const float>(distances));
+    table.add_vectors({"x", "y", "z"}, xyz);
+    table.add_texts("node", {"a, \"b\"", ""});
+    auto file = OutputFile::create(directory_.path(name));
+    ASSERT_TRUE(table.write(name, **file).ok() && (*file)->commit().ok());
+    auto reader = open_points(directory_.path(name));
+    ASSERT_TRUE(reader.ok()) << reader.status();
+    Floats again;
+    ASSERT_TRUE((*reader)->read(10, again).ok());
+    EXPECT_EQ(again, xyz) << name;
+  }
 }
 
 TEST_F(PointsTest, ResultsAsText) {

@@ -6,9 +6,11 @@
 
 #include "commands/context.h"
 #include "commands/import_flags.h"
+#include "commands/point_table.h"
 #include "commands/scene_argument.h"
 #include "exit_codes.h"
 #include "json_output.h"
+#include "output_ending.h"
 #include "output_file.h"
 #include "points/point_reader.h"
 #include "points/result_writer.h"
@@ -27,6 +29,7 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
   if (arguments.output == "-" && context.json) {
     return usage_error("--json and results on the standard output do not go together; state -o FILE");
   }
+  if (auto status = check_output_ending(arguments.output, {".csv", ".npy"}); !status.ok()) return status;
   if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
   const auto scene = scene_argument(arguments.scene, arguments.flags.get());
   if (!scene.ok()) return scene.status();
@@ -56,11 +59,16 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
         });
   }
   if (!status.ok()) return status;
+  print_notes(context, (*reader)->notes());
   status = writer->finish();
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
   if (context.json) {
-    JsonObject().set("file", arguments.output).set("points", static_cast<double>(points)).print();
+    JsonObject()
+        .set("file", arguments.output)
+        .set("points", static_cast<double>(points))
+        .set("notes", (*reader)->notes())
+        .print();
   }
   return absl::OkStatus();
 }
@@ -72,9 +80,7 @@ void add_eval_command(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("eval", "Evaluate the field, and its gradient, at points");
   command->add_option("SCENE", arguments->scene, "A file, or else a name on the server")->required();
   command
-      ->add_option(
-          "--points", arguments->points,
-          "Text with x,y,z on each line (.csv), a NumPy array (n, 3) (.npy), or - for text from the standard input")
+      ->add_option("--points", arguments->points, kPointsHelp)
       ->required();
   command->add_flag("--gradient", arguments->gradient, "The gradient too");
   command->add_flag("--shared-memory", arguments->shared_memory,

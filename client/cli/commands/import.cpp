@@ -10,6 +10,7 @@
 #include "exit_codes.h"
 #include "isofield/scene_file.h"
 #include "json_output.h"
+#include "output_ending.h"
 #include "output_file.h"
 
 namespace isofield {
@@ -17,6 +18,8 @@ namespace {
 
 absl::Status import(const Context& context, const std::string& path, const std::string& output,
                     const ImportFlags& flags) {
+  if (auto status = check_output_ending(output, {".json", ".pb"}); !status.ok()) return status;
+  if (auto status = OutputFile::check(output); !status.ok()) return file_error(status);
   const auto loaded = load_scene(path, flags.get());
   if (!loaded.ok()) return loaded.status();
   absl::StatusOr<std::string> text;
@@ -46,7 +49,7 @@ void add_import_command(CLI::App& app, Context& context) {
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("import", "Make a scene of a neuron, a molecule or points; needs no server");
-  command->add_option("FILE", arguments->file, "Neuron (.swc), molecule (.pdb, .xyz) or lines \"x y z\" (.xyz, .txt)")
+  command->add_option("FILE", arguments->file, "Neuron (.swc), molecule (.pdb, .cif, .xyz) or points, one \"x y z\" a line (.xyz, .txt, .csv)")
       ->required();
   command->add_option("-o,--output", arguments->output, "Scene to write (.json, .pb); - is the standard output")
       ->capture_default_str();

@@ -7,12 +7,13 @@
 #include <memory>
 
 #include "commands/operator_argument.h"
+#include "excerpt.h"
 #include "exit_codes.h"
 #include "json_output.h"
 #include "operators/argument_columns.h"
 #include "operators/argument_table.h"
+#include "output_ending.h"
 #include "output_file.h"
-#include "points/line_reader.h"
 
 namespace isofield {
 namespace {
@@ -46,6 +47,7 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
   if (arguments.output == "-" && context.json) {
     return usage_error("--json and results on the standard output do not go together; state -o FILE");
   }
+  if (auto status = check_output_ending(arguments.output, {".csv"}); !status.ok()) return status;
   if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
   auto client = context.connect();
   if (!client.ok()) return client.status();
@@ -53,17 +55,15 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
   if (!chosen.ok()) return chosen.status();
   auto table = ArgumentTable::open(arguments.points);
   if (!table.ok()) return file_error(table.status());
+  const auto refuse_header = [&](const absl::Status& status) {
+    return file_error(absl::InvalidArgumentError(absl::StrCat((*table)->place(), ": ", status.message())));
+  };
   const auto columns = columns_for(arguments.op, *chosen, (*table)->header());
-  if (!columns.ok()) {
-    return file_error(absl::InvalidArgumentError(absl::StrCat((*table)->place(), ": ", columns.status().message())));
-  }
-  std::vector<std::size_t> places;
-  for (const std::string& column : *columns) {
-    const auto& header = (*table)->header();
-    places.push_back(std::find(header.begin(), header.end(), column) - header.begin());
-    chosen->request.add_columns(column);
-  }
-  (*table)->choose(std::move(places));
+  if (!columns.ok()) return refuse_header(columns.status());
+  auto places = places_of(*columns, (*table)->header());
+  if (!places.ok()) return refuse_header(places.status());
+  for (const std::string& column : *columns) chosen->request.add_columns(column);
+  (*table)->choose(*std::move(places));
   auto file = OutputFile::create(arguments.output);
   if (!file.ok()) return file_error(file.status());
 

@@ -11,6 +11,7 @@
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "points/table.h"
+#include "points/vector_columns.h"
 
 namespace isofield {
 
@@ -24,12 +25,17 @@ struct PointTableArguments {
   void add_to(CLI::App& command, const std::string& points_name);
 };
 
-// All points of a file, [n, 3].
-absl::StatusOr<std::vector<float>> read_points(const std::string& path);
+// All points of a file, [n, 3], and the reader's notes.
+absl::StatusOr<std::vector<float>> read_points(const std::string& path, std::vector<std::string>& notes,
+                                               const VectorColumns& wanted = {});
+
+// Notes on the standard error, but with --json.
+void print_notes(const Context& context, const std::vector<std::string>& notes);
 
 // Reads, asks and writes. `ask` fills the table from the answers.
 using AskPoints =
     std::function<absl::Status(Client& client, const v1::SceneRef& scene, std::span<const float> xyz, Table& table)>;
-absl::Status answer_points(const Context& context, const PointTableArguments& arguments, const AskPoints& ask);
+absl::Status answer_points(const Context& context, const PointTableArguments& arguments, const AskPoints& ask,
+                           const VectorColumns& wanted = {});
 
 }  // namespace isofield

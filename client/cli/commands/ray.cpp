@@ -16,8 +16,12 @@ struct RayArguments : PointTableArguments {
   std::optional<double> cell, max_distance;
 };
 
-absl::StatusOr<std::vector<float>> read_directions(const RayArguments& arguments, std::size_t rays) {
-  if (!arguments.directions.empty()) return read_points(arguments.directions);
+absl::StatusOr<std::vector<float>> read_directions(const RayArguments& arguments, std::size_t rays,
+                                                   std::vector<std::string>& notes) {
+  if (!arguments.directions.empty()) {
+    return read_points(arguments.directions, notes,
+                       {VectorRole::kDirection, arguments.directions == arguments.points});
+  }
   std::vector<float> all;
   for (std::size_t i = 0; i < rays; ++i) {
     for (const double x : arguments.direction) all.push_back(static_cast<float>(x));
@@ -25,10 +29,12 @@ absl::StatusOr<std::vector<float>> read_directions(const RayArguments& arguments
   return all;
 }
 
-absl::Status cast(Client& client, const v1::SceneRef& scene, const RayArguments& arguments,
+absl::Status cast(const Context& context, Client& client, const v1::SceneRef& scene, const RayArguments& arguments,
                   std::span<const float> origins, Table& table) {
-  const auto directions = read_directions(arguments, origins.size() / 3);
+  std::vector<std::string> notes;
+  const auto directions = read_directions(arguments, origins.size() / 3, notes);
   if (!directions.ok()) return directions.status();
+  print_notes(context, notes);
   v1::CastRaysRequest request;
   *request.mutable_scene() = scene;
   if (arguments.iso) request.set_iso(*arguments.iso);
@@ -60,7 +66,8 @@ void add_ray_command(CLI::App& app, Context& context) {
       "ray", "Find where rays first meet the surface: distance (inf: nowhere),x,y,z,nx,ny,nz,inside,node");
   arguments->add_to(*command, "--origins");
   auto* each = command->add_option("--directions", arguments->directions,
-                                   "A direction for each origin, of any length; a file as the origins'");
+                                   "A direction for each origin, of any length: columns dx, dy, dz, or the normals nx, ny, nz, or x, y, z. A file "
+                                   "that has the origins too names them ox, oy, oz, or has six columns without names");
   command->add_option("--direction", arguments->direction, "x,y,z: one direction for all")
       ->delimiter(',')
       ->expected(3)
@@ -81,9 +88,16 @@ void add_ray_command(CLI::App& app, Context& context) {
       context.outcome = usage_error("the rays have no direction; state --directions FILE or --direction x,y,z");
       return;
     }
-    context.outcome = answer_points(context, *arguments,
-                                    [&](Client& client, const v1::SceneRef& scene, std::span<const float> origins,
-                                        Table& table) { return cast(client, scene, *arguments, origins, table); });
+    if (arguments->directions == "-" && arguments->points == "-") {
+      context.outcome = usage_error("--origins - --directions -: the standard input can be read once; name a file");
+      return;
+    }
+    context.outcome = answer_points(
+        context, *arguments,
+        [&](Client& client, const v1::SceneRef& scene, std::span<const float> origins, Table& table) {
+          return cast(context, client, scene, *arguments, origins, table);
+        },
+        {VectorRole::kOrigin});
   });
 }
 

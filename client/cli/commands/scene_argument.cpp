@@ -10,20 +10,14 @@
 
 #include "exit_codes.h"
 #include "isofield/client.h"
-#include "isofield/scene_file.h"
 
 namespace isofield {
 
 absl::StatusOr<LoadedScene> load_scene(const std::string& path, const ImportOptions& options) {
-  if (import_format(path)) {
-    auto imported = import_file(path, options);
-    if (!imported.ok()) return file_error(imported.status());
-    std::fputs(imported->report.text().c_str(), stderr);
-    return LoadedScene{std::move(imported->scene), std::move(imported->report)};
-  }
-  auto scene = read_scene_file(path);
-  if (!scene.ok()) return file_error(scene.status());
-  return LoadedScene{*std::move(scene), std::nullopt};
+  auto loaded = load_scene_file(path, options);
+  if (!loaded.ok()) return file_error(loaded.status());
+  if (loaded->report) std::fputs(loaded->report->text().c_str(), stderr);
+  return loaded;
 }
 
 absl::StatusOr<v1::SceneRef> scene_argument(const std::string& argument, const ImportOptions& options) {

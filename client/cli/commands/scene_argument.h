@@ -2,7 +2,6 @@
 
 #include <absl/status/statusor.h>
 
-#include <optional>
 #include <string>
 
 #include "isofield/import.h"
@@ -10,13 +9,7 @@
 
 namespace isofield {
 
-// A scene from a file, and what its import had to report.
-struct LoadedScene {
-  v1::Scene scene;
-  std::optional<ImportReport> report;
-};
-
-// Reads .json and .pb scenes, and imports the formats of import.h. An import's report goes to the standard error.
+// load_scene_file(), with an import's report on the standard error.
 absl::StatusOr<LoadedScene> load_scene(const std::string& path, const ImportOptions& options);
 
 // SCENE of the command line: a file if there is one of that name, else a name on the server.

@@ -9,6 +9,7 @@
 #include "commands/scene_argument.h"
 #include "exit_codes.h"
 #include "json_output.h"
+#include "output_ending.h"
 #include "plot/slice_plot.h"
 #include "points/npy_header.h"
 #include "points/table.h"
@@ -66,6 +67,7 @@ absl::Status slice_scene(const Context& context, const SliceArguments& arguments
   if (arguments.output == "-" && context.json) {
     return usage_error("--json and results on the standard output do not go together; state -o FILE");
   }
+  if (auto status = check_output_ending(arguments.output, {".png", ".csv", ".npy", ".json"}); !status.ok()) return status;
   if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
   const auto slice = request_slice(context, arguments);
   if (!slice.ok()) return slice.status();

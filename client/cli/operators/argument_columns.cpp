@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "points/line_reader.h"
+#include "excerpt.h"
 
 namespace isofield {
 namespace {
@@ -72,6 +72,17 @@ absl::StatusOr<std::vector<std::string>> choose_columns(const v1::Operator& mess
     if (has("ratio")) chosen.push_back("ratio");
   }
   return chosen;
+}
+
+absl::StatusOr<std::vector<std::size_t>> places_of(const std::vector<std::string>& columns,
+                                                   const std::vector<std::string>& there) {
+  std::vector<std::size_t> places;
+  for (const std::string& column : columns) {
+    const auto found = std::find(there.begin(), there.end(), column);
+    if (std::count(found, there.end(), column) != 1) return refuse(there, absl::StrCat(column, " once"));
+    places.push_back(static_cast<std::size_t>(found - there.begin()));
+  }
+  return places;
 }
 
 }  // namespace isofield

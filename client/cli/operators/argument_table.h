@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "points/line_reader.h"
+#include "points/file_lines.h"
+#include "tables/table_head.h"
 
 namespace isofield {
 
-// A text of numbers in named columns: a header line, then a row a line. Commas, semicolons or tabs separate where the
-// header has them, blanks elsewhere. Blank lines and lines that start with # are skipped. Single-threaded.
+// A text of numbers in named columns: a header line, then a row a line, read as table_head.h says: cells between commas,
+// semicolons, tabs or blanks, decimal commas between semicolons only. Single-threaded.
 class ArgumentTable {
  public:
   // Reads the header. INVALID_ARGUMENT: there is none. NOT_FOUND ...: the file cannot be read.
@@ -29,14 +30,15 @@ class ArgumentTable {
   const std::string& place() const { return place_; }
 
  private:
-  explicit ArgumentTable(std::unique_ptr<LineReader> lines) : lines_(std::move(lines)) {}
+  explicit ArgumentTable(InputFile file) : lines_(std::move(file)) {}
   absl::Status read_header();
   // False at the end. Skips blank lines and comments.
   absl::StatusOr<bool> next_cells();
   absl::Status parse_row(std::vector<float>& numbers) const;
 
-  std::unique_ptr<LineReader> lines_;
-  char separator_ = ' ';
+  FileLines lines_;
+  TableHead head_;
+  bool has_row_ = false;
   std::vector<std::string> header_;
   std::string place_;
   std::vector<std::size_t> places_;

@@ -1,16 +1,42 @@
 #pragma once
 
+#include <absl/status/statusor.h>
+#include <absl/strings/string_view.h>
+
 #include <cstdio>
 #include <memory>
+#include <string>
 
 namespace isofield {
 
-// Closes all but the standard input, which is not ours.
-struct CloseInput {
-  void operator()(FILE* file) const {
-    if (file != stdin) std::fclose(file);
-  }
+// The bytes of a file, or of the standard input, whose first ones can be looked at before they are read.
+// Single-threaded.
+class InputFile {
+ public:
+  // "-" is the standard input. NOT_FOUND, PERMISSION_DENIED ...: the file cannot be opened.
+  static absl::StatusOr<InputFile> open(const std::string& path);
+
+  // The first bytes, at most 512; they are still to be read.
+  absl::string_view start() const { return start_; }
+  // Reads up to `bytes`; fewer only at the end. UNKNOWN ...: the file cannot be read.
+  absl::StatusOr<std::size_t> read(void* data, std::size_t bytes);
+
+  // For errors; "<stdin>" for the standard input.
+  const std::string& name() const { return name_; }
+
+ private:
+  struct Close {
+    // The standard input is not ours.
+    void operator()(FILE* file) const {
+      if (file != stdin) std::fclose(file);
+    }
+  };
+  InputFile(FILE* file, std::string name) : file_(file), name_(std::move(name)) {}
+
+  std::unique_ptr<FILE, Close> file_;
+  std::string name_;
+  std::string start_;
+  std::size_t start_read_ = 0;
 };
-using InputFile = std::unique_ptr<FILE, CloseInput>;
 
 }  // namespace isofield

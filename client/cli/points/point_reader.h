@@ -7,9 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "points/vector_columns.h"
+
 namespace isofield {
 
-// Reads points in chunks, so that a file of any length needs the memory of a chunk. Single-threaded.
+// Reads points, or other vectors, in chunks, so that a file of any length needs the memory of a chunk (a NumPy array in
+// Fortran order: of all its points). Single-threaded.
 class PointReader {
  public:
   virtual ~PointReader() = default;
@@ -18,16 +21,27 @@ class PointReader {
   // INVALID_ARGUMENT: the message names the file, the line (or row) and what was expected there. Coordinates that are
   // not finite are refused here, where the line is known.
   virtual absl::Status read(std::size_t max_points, std::vector<float>& xyz) = 0;
+
+  // Sentences on what was left out of the rows read so far, for the user.
+  virtual std::vector<std::string> notes() const = 0;
 };
 
-// By the name: *.npy is a NumPy array, anything else text; "-" is text from the standard input.
-//  - Text: a point a line, x y z, between commas, semicolons, blanks or tabs. Blank lines and lines that start with #
-//    are skipped. A first line that is no number is a header; with one, columns after the third are ignored, so that
-//    results can be read again.
-//  - NumPy: versions 1 to 3, little-endian float32 or float64, shape (n, 3), C order.
-absl::StatusOr<std::unique_ptr<PointReader>> open_points(const std::string& path);
+// "-" is the standard input. A file that begins with NumPy's magic bytes is an array, whatever its name is; else it is text.
+//
+// Which columns hold the vectors:
+//  - With a header (text) or fields (NumPy's structured types): those that find_vector() chooses by their names.
+//    INVALID_ARGUMENT: they are not there.
+//  - Without: the first three, with a note on the others.
+// Rows whose column "distance" is not finite are left out, with a note: `isofield ray` writes them for rays that hit nothing.
+//
+// Text is read as table_head.h says: a point a line, cells between commas, semicolons, tabs or blanks, decimal commas
+// between semicolons only, lines that end at LF, CR LF or CR. NumPy: versions 1 to 3, shape (n, 3 to 64) or a structured type of shape
+// (n,); integers and floats of any size and byte order; C or Fortran order.
+absl::StatusOr<std::unique_ptr<PointReader>> open_points(const std::string& path, const VectorColumns& wanted = {});
 
-absl::StatusOr<std::unique_ptr<PointReader>> open_csv_points(const std::string& path);
-absl::StatusOr<std::unique_ptr<PointReader>> open_npy_points(const std::string& path);
+// What --help says of such files.
+inline constexpr char kPointsHelp[] =
+    "Text with a point a line (.csv) or a NumPy array (.npy); - is the standard input. Columns or fields named x, y, z, "
+    "in any order; without names the first three. Rows of `isofield ray` that hit nothing are left out";
 
 }  // namespace isofield

@@ -69,7 +69,9 @@ absl::Status Table::write_npy(OutputFile& file) const {
   for (const Column& c : columns_) {
     if (c.texts.empty()) numbers.push_back(&c);
   }
-  absl::Status status = file.write(npy_header(rows(), numbers.size()));
+  std::vector<std::string> names;
+  for (const Column* c : numbers) names.push_back(c->name);
+  absl::Status status = file.write(npy_header(rows(), names));
   std::vector<float> line(numbers.size());
   for (std::size_t row = 0; row < rows() && status.ok(); ++row) {
     for (std::size_t n = 0; n < numbers.size(); ++n) line[n] = numbers[n]->numbers[row];

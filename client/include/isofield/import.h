@@ -91,7 +91,7 @@ struct Imported {
   ImportReport report;
 };
 
-// By the file's extension: .swc; .pdb, .ent; .xyz, .txt. Nothing: not a format that can be imported.
+// What the ending of a file's name promises: .swc; .pdb, .ent; .cif, .mmcif; .xyz; .txt (points). Nothing: another ending.
 std::optional<ImportFormat> import_format(const std::string& path);
 
 // "camel", "organic", "contact", "sum", "max" or "ricci".
@@ -107,14 +107,31 @@ std::optional<ImportOperator> import_operator(const std::string& name);
 //  - Pieces come parents first; a file that is in that order keeps it. Named "n<id>" after the sample at the far end.
 // PDB: a sphere of van der Waals radius for each atom of the first model; alternate locations but the first, and
 // water, are left out. Named "CHAIN/RESIDUE/ATOM" where that is unique.
-// XYZ: "count, comment, lines of: element x y z" as molecules, first frame only; or lines "x y z" as soft objects
-// w(distance / R), that is radius r0 R and range (1 - r0) R.
+// XYZ: "count, comment, lines of: element x y z" as molecules, first frame only.
+// Points: lines "x y z" as soft objects w(distance / R), that is radius r0 R and range (1 - r0) R.
+//  - With a header the columns x, y and z, in any order, and as R the column "radius" (or "r", where there is no "g" beside it). Case,
+//    quotes and a unit, as in "X (um)", do not matter; "position x", "pos_x" and the like do where x, y, z are not there. INVALID_ARGUMENT: the header
+//    names no x, y, z, or one of them twice.
+//  - Without a header the first three columns; the report mentions others. ImportOptions::radius_column is R's.
+//  - Cells are parted by commas, semicolons, tabs or blanks. Decimal commas are read between semicolons.
 //
 // INVALID_ARGUMENT: an option out of its range, or nothing in the text that could be used; `name` stands for the file.
 absl::StatusOr<Imported> import_text(const std::string& text, ImportFormat format, const ImportOptions& options,
                                      const std::string& name);
 
-// The same of a file; the format by its extension.
+// The same of a file. Its format is told by its content where that is plain (molecules, neurons), else by the ending of its
+// name, else by the content again: lines of three numbers are points.
+// INVALID_ARGUMENT, too: nothing that can be imported; the message says what it is, where that is known, and what can be
+// read. NOT_FOUND, PERMISSION_DENIED ...: the file cannot be read.
 absl::StatusOr<Imported> import_file(const std::string& path, const ImportOptions& options);
+
+// A scene from a file, and what its import had to report where it was imported.
+struct LoadedScene {
+  v1::Scene scene;
+  std::optional<ImportReport> report;
+};
+
+// A file that is a scene (proto3 JSON or the binary message) as it is, any other as import_file() does; its content tells.
+absl::StatusOr<LoadedScene> load_scene_file(const std::string& path, const ImportOptions& options);
 
 }  // namespace isofield

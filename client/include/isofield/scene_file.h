@@ -9,7 +9,7 @@
 
 namespace isofield {
 
-// Scenes on disk: proto3 JSON (.json), or the binary message (.pb).
+// Scenes on disk: proto3 JSON, or the binary message (.pb). What begins as a JSON object is JSON whatever its name is.
 
 // INVALID_ARGUMENT: not a scene; the message names the file, the place and what is wrong there.
 // NOT_FOUND, PERMISSION_DENIED ...: the file cannot be read.

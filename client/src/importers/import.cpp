@@ -6,18 +6,44 @@
 #include <array>
 #include <utility>
 
+#include "importers/detect.h"
 #include "importers/formats.h"
 #include "importers/import_options.h"
-#include "importers/swc_reader.h"
 #include "isofield/scene_file.h"
+#include "json_text.h"
 
 namespace isofield {
+namespace {
+
+// Nothing: a scene.
+std::optional<ImportFormat> format_of(FileKind kind) {
+  switch (kind) {
+    case FileKind::kSceneJson:
+    case FileKind::kSceneMessage:
+      break;
+    case FileKind::kSwc:
+      return ImportFormat::kSwc;
+    case FileKind::kPdb:
+      return ImportFormat::kPdb;
+    case FileKind::kMmcif:
+      return ImportFormat::kMmcif;
+    case FileKind::kXyz:
+      return ImportFormat::kXyz;
+    case FileKind::kPoints:
+      return ImportFormat::kPoints;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::optional<ImportFormat> import_format(const std::string& path) {
-  constexpr std::array<std::pair<const char*, ImportFormat>, 6> kExtensions = {{{".swc", ImportFormat::kSwc},
+  constexpr std::array<std::pair<const char*, ImportFormat>, 8> kExtensions = {{{".swc", ImportFormat::kSwc},
                                                                                 {".eswc", ImportFormat::kSwc},
                                                                                 {".pdb", ImportFormat::kPdb},
                                                                                 {".ent", ImportFormat::kPdb},
+                                                                                {".cif", ImportFormat::kMmcif},
+                                                                                {".mmcif", ImportFormat::kMmcif},
                                                                                 {".xyz", ImportFormat::kXyz},
                                                                                 {".txt", ImportFormat::kPoints}}};
   for (const auto& [extension, format] : kExtensions) {
@@ -76,16 +102,36 @@ absl::StatusOr<Imported> import_text(const std::string& text, ImportFormat forma
   return imported;
 }
 
-absl::StatusOr<Imported> import_file(const std::string& path, const ImportOptions& options) {
-  const auto format = import_format(path);
+absl::StatusOr<LoadedScene> load_scene_file(const std::string& path, const ImportOptions& options) {
+  const auto content = read_file(path);
+  if (!content.ok()) return content.status();
+  const auto kind = detect_kind(*content, path);
+  if (!kind.ok()) return kind.status();
+  const auto format = format_of(*kind);
   if (!format) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(path, ": not a format that can be imported; expected .swc, .eswc, .pdb, .ent, .xyz or .txt"));
+    LoadedScene loaded;
+    absl::Status status;
+    if (*kind == FileKind::kSceneJson) {
+      status = parse_json(*content, path, "a scene", loaded.scene);
+    } else if (!loaded.scene.ParseFromString(*content)) {
+      status = absl::InvalidArgumentError(absl::StrCat(path, ": not a binary isofield.v1.Scene message"));
+    }
+    if (!status.ok()) return status;
+    return loaded;
   }
-  const auto text = read_file(path);
-  if (!text.ok()) return text.status();
-  const bool is_neuron = *format == ImportFormat::kPoints && looks_like_swc(*text);
-  return import_text(*text, is_neuron ? ImportFormat::kSwc : *format, options, path);
+  auto imported = import_text(*content, *format, options, path);
+  if (!imported.ok()) return imported.status();
+  return LoadedScene{std::move(imported->scene), std::move(imported->report)};
+}
+
+absl::StatusOr<Imported> import_file(const std::string& path, const ImportOptions& options) {
+  auto loaded = load_scene_file(path, options);
+  if (!loaded.ok()) return loaded.status();
+  if (!loaded->report) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(path, ": a scene already; expected a neuron, a molecule or points to make one of"));
+  }
+  return Imported{std::move(loaded->scene), *std::move(loaded->report)};
 }
 
 }  // namespace isofield

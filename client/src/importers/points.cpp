@@ -1,10 +1,18 @@
 #include <absl/strings/ascii.h>
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_cat.h>
 
+#include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "importers/formats.h"
 #include "importers/import_report.h"
 #include "importers/text.h"
+#include "tables/row_numbers.h"
+#include "tables/swc_row.h"
+#include "tables/table_head.h"
 
 namespace isofield {
 namespace {
@@ -13,44 +21,124 @@ namespace {
 constexpr double kSoftRadius = 0.5;
 // Where w(r) = (1 - r^2)^3 is 1/2; scene.proto.
 const double kSurface = std::sqrt(1 - std::cbrt(0.5));
+// Larger numbers have squares that float32 cannot hold.
+constexpr double kLargest = 1e15;
 
-// Fields first, first + 1, first + 2.
-bool parse_center(const std::vector<absl::string_view>& fields, std::size_t first, std::array<double, 3>& center) {
-  if (fields.size() < first + 3) return false;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto value = parse_length(fields[first + axis]);
-    if (!value) return false;
-    center[axis] = *value;
+// The column of R; nothing: there is none. INVALID_ARGUMENT: the one that is asked for is not there.
+absl::StatusOr<std::optional<std::size_t>> radius_column(const TableHead& head, const std::string& asked) {
+  if (asked.empty()) {
+    if (const auto column = find_column(head.names(), "radius")) return column;
+    // Colours are r, g, b.
+    return find_column(head.names(), "g") ? std::nullopt : find_column(head.names(), "r");
   }
-  return true;
+  std::size_t number = 0;
+  if (absl::SimpleAtoi(asked, &number)) {
+    if (number >= 1 && number <= head.columns()) return number - 1;
+    return absl::InvalidArgumentError(
+        absl::StrCat("radius column ", number, ": expected a column from 1 to ", head.columns()));
+  }
+  for (std::size_t column = 0; column < head.names().size(); ++column) {
+    if (head.names()[column] == asked) return column;
+  }
+  const auto column = find_column(head.names(), absl::AsciiStrToLower(asked));
+  if (column) return column;
+  return absl::InvalidArgumentError(absl::StrCat(
+      "radius column \"", asked, "\": ",
+      head.names().empty() ? "there is no header; expected a column's number from 1"
+                           : absl::StrCat("expected one of the columns ", list_names(head.names()), ", or its number")));
 }
 
-void import_point(const std::vector<absl::string_view>& fields, std::size_t number, absl::string_view line,
-                  const ImportOptions& options, Imported& imported) {
-  ++imported.report.read;
-  std::array<double, 3> center;
-  if (!parse_center(fields, 0, center)) {
-    note(imported.report, "line dropped: expected \"x y z\" with finite numbers of a usable size", number, line);
-    return;
+class PointImport {
+ public:
+  PointImport(const ImportOptions& options, Imported& imported) : options_(options), imported_(imported) {}
+
+  absl::Status run(const std::string& text) {
+    LineReader lines(text);
+    absl::string_view line;
+    bool has_row = false;
+    while (!has_row && lines.next(line)) has_row = head_.take(line);
+    if (auto status = choose_columns(lines.number(), line); !status.ok()) return status;
+    for (; has_row; has_row = lines.next(line)) {
+      if (!is_comment(line)) add_point(lines.number(), line);
+    }
+    return absl::OkStatus();
   }
-  const double soft_radius = options.radius.value_or(kSoftRadius);
-  v1::Sphere& sphere = *imported.scene.add_nodes()->mutable_sphere();
-  for (const double coordinate : center) sphere.add_center(coordinate);
-  sphere.set_radius(kSurface * soft_radius);
-  sphere.set_range(options.range.value_or((1 - kSurface) * soft_radius));
-}
+
+ private:
+  absl::Status choose_columns(std::size_t number, absl::string_view row) {
+    std::vector<std::size_t> places = {0, 1, 2};
+    if (!head_.names().empty()) {
+      const auto found = find_vector(head_.names(), VectorRole::kPosition);
+      if (!found.ok()) return found.status();
+      places.assign(found->begin(), found->end());
+    }
+    const auto radius = radius_column(head_, options_.radius_column);
+    if (!radius.ok()) return radius.status();
+    has_radius_ = radius->has_value();
+    if (has_radius_) {
+      for (const std::size_t place : places) {
+        if (place == **radius) return absl::InvalidArgumentError("the radius column holds a coordinate; expected another one");
+      }
+      places.push_back(**radius);
+    } else if (head_.names().empty() && head_.columns() > 3) {
+      note(imported_.report,
+           absl::StrCat("note: the lines have ", head_.columns(), " columns, and only the first three are read; ",
+                        swc_row(row) || head_.columns() == 7
+                            ? "is this an SWC file (id type x y z radius parent)? Then name it .swc"
+                            : "--radius-column states which one holds radii"),
+           number, row, false);
+    }
+    if (const auto distance = find_column(head_.names(), "distance"); distance && distance != *radius) {
+      distance_place_ = places.size();
+      places.push_back(*distance);
+    }
+    numbers_.emplace(head_.separator(), std::move(places), head_.names());
+    return absl::OkStatus();
+  }
+
+  void add_point(std::size_t number, absl::string_view line) {
+    ImportReport& report = imported_.report;
+    ++report.read;
+    std::array<double, 5> numbers{};
+    if (const auto status = numbers_->parse(line, numbers.data()); !status.ok()) {
+      note(report, absl::StrCat("line dropped: ", status.message()), number, line);
+      return;
+    }
+    if (distance_place_ != 0 && !std::isfinite(numbers[distance_place_])) {
+      note(report, "line left out: its distance is not finite, the ray hit nothing", number, line, false);
+      return;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (std::abs(numbers[axis]) <= kLargest) continue;
+      note(report, "line dropped: expected \"x y z\" with finite numbers of a usable size", number, line);
+      return;
+    }
+    double soft_radius = options_.radius.value_or(kSoftRadius);
+    if (has_radius_ && numbers[3] > 0 && numbers[3] <= kLargest) {
+      soft_radius = numbers[3];
+    } else if (has_radius_) {
+      note(report, absl::StrCat("radius not > 0 or not of a usable size: ", soft_radius, " used"), number, line);
+    }
+    v1::Sphere& sphere = *imported_.scene.add_nodes()->mutable_sphere();
+    for (std::size_t axis = 0; axis < 3; ++axis) sphere.add_center(numbers[axis]);
+    sphere.set_radius(kSurface * soft_radius);
+    sphere.set_range(options_.range.value_or((1 - kSurface) * soft_radius));
+  }
+
+  const ImportOptions& options_;
+  Imported& imported_;
+  TableHead head_;
+  std::optional<RowNumbers> numbers_;
+  bool has_radius_ = false;
+  // Among the numbers of a row; 0: the table has no distances.
+  std::size_t distance_place_ = 0;
+};
 
 }  // namespace
 
 absl::Status import_points(const std::string& text, const ImportOptions& options, Imported& imported) {
   imported.report.format = "points (XYZ)";
-  LineReader lines(text);
-  absl::string_view line;
-  while (lines.next(line)) {
-    if (line.empty() || line.front() == '#') continue;
-    import_point(split_fields(line), lines.number(), line, options, imported);
-  }
-  return absl::OkStatus();
+  return PointImport(options, imported).run(text);
 }
 
 }  // namespace isofield

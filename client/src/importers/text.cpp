@@ -4,10 +4,12 @@
 #include <absl/strings/numbers.h>
 #include <absl/strings/str_cat.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "excerpt.h"
 
 namespace isofield {
 
@@ -45,15 +47,6 @@ std::vector<absl::string_view> split_fields(absl::string_view line) {
   return fields;
 }
 
-std::optional<double> parse_double(absl::string_view field) {
-  if (!field.empty() && field.front() == '+') field.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error == std::errc::result_out_of_range) return HUGE_VAL;
-  if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
-  return value;
-}
-
 std::optional<double> parse_length(absl::string_view field) {
   const auto value = parse_double(field);
   return value && std::abs(*value) <= kLargestLength ? value : std::nullopt;
@@ -86,12 +79,7 @@ std::optional<long long> parse_integer(absl::string_view field) {
 }
 
 std::string quote_line(std::size_t number, absl::string_view line) {
-  constexpr std::size_t kLength = 60;
-  std::string text(line.substr(0, kLength));
-  for (char& c : text) {
-    if (!absl::ascii_isprint(c)) c = absl::ascii_isspace(c) ? ' ' : '?';
-  }
-  return absl::StrCat("line ", number, ": ", text, line.size() > kLength ? " ..." : "");
+  return absl::StrCat("line ", number, ": ", excerpt(line));
 }
 
 }  // namespace isofield

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tables/number.h"
+
 namespace isofield {
 
 // Walks over the lines of a text; ends lines at LF, CR LF or CR, and drops blanks at both ends.
@@ -30,8 +32,6 @@ class LineReader {
 // Fields between blanks, tabs, commas and semicolons.
 std::vector<absl::string_view> split_fields(absl::string_view line);
 
-// The whole field as a number; infinities and NaN included. Nothing: not a number.
-std::optional<double> parse_double(absl::string_view field);
 // The least length and the largest length or coordinate that the server takes in a scene.
 inline constexpr double kLeastLength = 1e-9;
 inline constexpr double kLargestLength = 1e9;

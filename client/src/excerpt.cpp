@@ -1,0 +1,19 @@
+#include "excerpt.h"
+
+#include <absl/strings/ascii.h>
+
+namespace isofield {
+
+std::string excerpt(absl::string_view text) {
+  constexpr std::size_t kMost = 80;
+  std::string result(text.substr(0, kMost));
+  // A terminal obeys control characters, and half a character of several bytes is none.
+  for (char& c : result) {
+    if (!absl::ascii_isprint(static_cast<unsigned char>(c))) {
+      c = absl::ascii_isspace(static_cast<unsigned char>(c)) ? ' ' : '?';
+    }
+  }
+  return text.size() > kMost ? result.replace(kMost - 3, 3, "...") : result;
+}
+
+}  // namespace isofield

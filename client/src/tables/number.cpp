@@ -1,0 +1,42 @@
+#include "tables/number.h"
+
+#include <absl/strings/charconv.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace isofield {
+
+const char* scan_double(const char* begin, const char* end, double& value) {
+  if (begin != end && *begin == '+') {
+    ++begin;
+    if (begin != end && *begin == '-') return nullptr;
+  }
+  const auto [after, error] = std::from_chars(begin, end, value);
+  if (error == std::errc()) return after;
+  if (error != std::errc::result_out_of_range) return nullptr;
+  // The standard function does not say whether the number is too large or too small; this one leaves the nearest.
+  absl::from_chars(begin, end, value);
+  value = std::abs(value) < 1 ? 0 : std::copysign(HUGE_VAL, value);
+  return after;
+}
+
+std::optional<double> parse_double(absl::string_view text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  return !text.empty() && scan_double(text.data(), end, value) == end ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> parse_decimal_comma(absl::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == absl::string_view::npos) return parse_double(text);
+  // "1.234,5" and "1,234,567" have separators of thousands, which differ from place to place.
+  if (text.find('.') != absl::string_view::npos) return std::nullopt;
+  std::string with_point(text);
+  with_point[comma] = '.';
+  return parse_double(with_point);
+}
+
+}  // namespace isofield
