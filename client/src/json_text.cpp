@@ -48,7 +48,7 @@ bool is_json(absl::string_view content) {
 
 absl::Status parse_file(const std::string& content, const std::string& name, const std::string& what,
                         google::protobuf::Message& message) {
-  if (is_json(content) || !absl::EndsWithIgnoreCase(name, ".pb")) return parse_json(content, name, what, message);
+  if (is_json(content) || !absl::EndsWithIgnoreCase(absl::StripSuffix(name, ".gz"), ".pb")) return parse_json(content, name, what, message);
   if (message.ParseFromString(content)) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(name, ": not a binary ", message.GetTypeName(), " message"));
 }

@@ -10,8 +10,7 @@
 namespace isofield {
 namespace {
 
-constexpr char kAtom[] =
-    "ATOM      1  N   THR A   1      17.047  14.099   3.625  1.00 13.79           N\n";
+constexpr char kAtom[] = "ATOM      1  N   THR A   1      17.047  14.099   3.625  1.00 13.79           N\n";
 constexpr char kSwc[] = "1 1 0 0 0 6 -1\n2 3 0 8 0 1.2 1\n3 3 1 16 0 1 2\n";
 constexpr char kXyz[] = "2\nwater\nO 0 0 0\nH 1 0 0\n";
 constexpr char kTinker[] = "2 water\n1 O 0 0 0 1 2\n2 H 1 0 0 2 1\n";
@@ -39,8 +38,9 @@ TEST(Detect, ContentOutweighsTheEnding) {
 
 TEST(Detect, PointsAreWhatNothingElseClaims) {
   for (const char* const name : {"a.txt", "a.dat", "a", "a.xyz", "a.csv", "a.json"}) {
-    for (const char* const text : {"0 0 0\n1 2 3\n", "# c\n0,0,0\n", "x;y;z\n1,5;2;3\n", "z y x r\n1 2 3 4\n", "x,y,z\n",
-                                   "0.5 1 2 3 4 5 6\n", "2\n0 0 0\n1 1 1\n", "1 2 3 4 5 6 7\n8 9 10 11 12 13 14\n"}) {
+    for (const char* const text :
+         {"0 0 0\n1 2 3\n", "# c\n0,0,0\n", "x;y;z\n1,5;2;3\n", "z y x r\n1 2 3 4\n", "x,y,z\n", "0.5 1 2 3 4 5 6\n",
+          "2\n0 0 0\n1 1 1\n", "1 2 3 4 5 6 7\n8 9 10 11 12 13 14\n"}) {
       EXPECT_EQ(*detect_kind(text, name), FileKind::kPoints) << name << ": " << text;
     }
   }
@@ -59,8 +59,10 @@ TEST(Detect, TheEndingDecidesWhereContentDoesNot) {
 TEST(Detect, OddSwcFilesAreKnown) {
   EXPECT_EQ(*detect_kind("# c\r1,1,0,0,0,6,-1\r2,3,0,8,0,1.2,1\r", "a.txt"), FileKind::kSwc);
   EXPECT_EQ(*detect_kind("2 3 0 8 0 1.2 1\n1 1 0 0 0 6 -1\n", "a"), FileKind::kSwc) << "parents later";
-  EXPECT_EQ(*detect_kind("1 1 0 0 0 6 1\n2 3 0 8 0 0 1 label\n", "a"), FileKind::kSwc) << "a root that is its own parent";
-  EXPECT_EQ(*detect_kind("7 2 0 0 0 nan -1\nrubbish\n8 2 0 0 1 1 7\n9 2 0 0 2 1 8\n10 2 0 0 2 1 9\n", "a"), FileKind::kSwc);
+  EXPECT_EQ(*detect_kind("1 1 0 0 0 6 1\n2 3 0 8 0 0 1 label\n", "a"), FileKind::kSwc)
+      << "a root that is its own parent";
+  EXPECT_EQ(*detect_kind("7 2 0 0 0 nan -1\nrubbish\n8 2 0 0 1 1 7\n9 2 0 0 2 1 8\n10 2 0 0 2 1 9\n", "a"),
+            FileKind::kSwc);
 }
 
 TEST(Detect, WhatCannotBeReadIsNamedAndAnsweredWithWhatCan) {
@@ -105,13 +107,18 @@ TEST(Detect, SharedFilesAreWhatTheyAre) {
   const auto imported = import_file(swc, {});
   ASSERT_TRUE(imported.ok()) << imported.status();
   EXPECT_EQ(imported->report.format, "neuron (SWC)");
-  const std::pair<const char*, FileKind> files[] = {
-      {"1A8O.pdb", FileKind::kPdb},        {"4hhb.pdb", FileKind::kPdb},
-      {"1A8O.cif", FileKind::kMmcif},      {"odd/small.cif", FileKind::kMmcif},
-      {"extended.xyz", FileKind::kXyz},    {"odd/properties_pos_last.xyz", FileKind::kXyz},
-      {"odd/isotopes.xyz", FileKind::kXyz}, {"segment_tracing_particles.txt", FileKind::kPoints},
-      {"hemibrain_1734350788.swc", FileKind::kSwc}, {"odd/ids_beyond_53_bits.swc", FileKind::kSwc},
-      {"odd/scale_header.swc", FileKind::kSwc}, {"odd/turned_box.json", FileKind::kSceneJson}};
+  const std::pair<const char*, FileKind> files[] = {{"1A8O.pdb", FileKind::kPdb},
+                                                    {"4hhb.pdb", FileKind::kPdb},
+                                                    {"1A8O.cif", FileKind::kMmcif},
+                                                    {"odd/small.cif", FileKind::kMmcif},
+                                                    {"extended.xyz", FileKind::kXyz},
+                                                    {"odd/properties_pos_last.xyz", FileKind::kXyz},
+                                                    {"odd/isotopes.xyz", FileKind::kXyz},
+                                                    {"segment_tracing_particles.txt", FileKind::kPoints},
+                                                    {"hemibrain_1734350788.swc", FileKind::kSwc},
+                                                    {"odd/ids_beyond_53_bits.swc", FileKind::kSwc},
+                                                    {"odd/scale_header.swc", FileKind::kSwc},
+                                                    {"odd/turned_box.json", FileKind::kSceneJson}};
   for (const auto& [file, kind] : files) {
     EXPECT_EQ(*detect_kind(*read_file(shared_data(file)), "no_ending"), kind) << file;
   }

@@ -73,7 +73,8 @@ TEST(PointImport, DecimalCommasAreReadBetweenSemicolonsOnly) {
   EXPECT_EQ(import("1,5;2;3\n")->scene.nodes(0).sphere().center(0), 1.5);
   const auto mixed = import("0 0 0\n0,5 1 2\n");
   EXPECT_EQ(mixed->report.pieces, 1u);
-  EXPECT_TRUE(absl::StrContains(mixed->report.text(), "decimal commas are read only where semicolons")) << mixed->report.text();
+  EXPECT_TRUE(absl::StrContains(mixed->report.text(), "decimal commas are read only where semicolons"))
+      << mixed->report.text();
   EXPECT_FALSE(import("0,5 1,5 2,5\n").ok());
 }
 

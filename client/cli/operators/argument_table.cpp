@@ -34,7 +34,8 @@ absl::Status ArgumentTable::read_header() {
     place_ = lines_.place();
     if (!*got) return absl::InvalidArgumentError(absl::StrCat(place_, ": no lines; expected ", kExpected));
     if (head_.take(line) && head_.names().empty()) {
-      return lines_.refuse(split_cells(line, head_.separator()).front(), "expected a header line that names the columns");
+      return lines_.refuse(split_cells(line, head_.separator()).front(),
+                           "expected a header line that names the columns");
     }
   }
   for (const std::string& name : head_.names()) header_.push_back(absl::AsciiStrToLower(name));
@@ -59,7 +60,7 @@ absl::StatusOr<bool> ArgumentTable::next_cells() {
 absl::Status ArgumentTable::parse_row(std::vector<float>& numbers) const {
   if (cells_.size() != header_.size()) {
     return lines_.refuse(cells_.front(), absl::StrCat("begins a line of ", cells_.size(), " cells; expected ",
-                                                       header_.size(), " as in the header"));
+                                                      header_.size(), " as in the header"));
   }
   for (const std::size_t place : places_) {
     float number = 0;

@@ -35,7 +35,8 @@ class FileLines {
   std::vector<char> block_ = std::vector<char>(kBlockBytes);
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
-  // Where the next LF is known to be, or end_: none up to there. A text with CR alone would be searched again for each line.
+  // Where the next LF is known to be, or end_: none up to there. A text with CR alone would be searched again for each
+  // line.
   std::size_t next_lf_ = 0;
   std::size_t line_number_ = 0;
   bool at_end_ = false;

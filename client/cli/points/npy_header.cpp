@@ -16,8 +16,10 @@ constexpr std::size_t kMostItemBytes = 1 << 16;
 constexpr std::size_t kMostFields = 4096;
 
 absl::Status refuse_type(absl::string_view type) {
-  return absl::InvalidArgumentError(absl::StrCat("dtype ", excerpt(type), "; expected numbers, such as '<f4' or '<f8' (float32, float64), '<i4', "
-                                                 "or a structured type with fields x, y and z"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("dtype ", excerpt(type),
+                   "; expected numbers, such as '<f4' or '<f8' (float32, float64), '<i4', "
+                   "or a structured type with fields x, y and z"));
 }
 
 // "<f4". A type that is no number, such as text, has a size but no number.
@@ -31,7 +33,8 @@ absl::Status parse_type(absl::string_view type, NpyNumber& number, std::size_t& 
   rest = rest.substr(1, rest.find('[') == absl::string_view::npos ? rest.npos : rest.find('[') - 1);
   std::uint32_t size = 0;
   if (kind == '?') size = 1;
-  if (kind == 'O' || (kind != '?' && (!absl::SimpleAtoi(rest, &size) || size > kMostItemBytes))) return refuse_type(type);
+  if (kind == 'O' || (kind != '?' && (!absl::SimpleAtoi(rest, &size) || size > kMostItemBytes)))
+    return refuse_type(type);
   bytes = kind == 'U' ? 4 * std::size_t{size} : size;
   const bool is_float = kind == 'f' && (size == 2 || size == 4 || size == 8);
   const bool is_integer = (kind == 'i' || kind == 'u') && (size == 1 || size == 2 || size == 4 || size == 8);
@@ -44,7 +47,8 @@ std::optional<std::size_t> count_of(const PythonLiteral& shape) {
   std::size_t count = 1;
   const auto multiply = [&](const PythonLiteral& factor) {
     std::uint32_t number = 0;
-    if (factor.kind != Kind::kNumber || !absl::SimpleAtoi(factor.text, &number) || number > kMostItemBytes) return false;
+    if (factor.kind != Kind::kNumber || !absl::SimpleAtoi(factor.text, &number) || number > kMostItemBytes)
+      return false;
     // Without an element the size of a type could not limit how far it nests.
     if (number == 0) return false;
     count *= number;
@@ -58,15 +62,18 @@ std::optional<std::size_t> count_of(const PythonLiteral& shape) {
   return count;
 }
 
-// Adds the fields of a type at an offset, and says how many bytes it takes. Names of nested fields follow the outer one's.
+// Adds the fields of a type at an offset, and says how many bytes it takes. Names of nested fields follow the outer
+// one's.
 absl::Status add_fields(const PythonLiteral& type, const std::string& name, std::size_t offset, NpyHeader& header,
                         std::size_t& bytes) {
   if (type.kind == Kind::kText) {
     NpyField& field = header.fields.emplace_back(NpyField{name, offset, {}});
-    if (header.fields.size() > kMostFields) return absl::InvalidArgumentError("a structured type of more than 4096 fields");
+    if (header.fields.size() > kMostFields)
+      return absl::InvalidArgumentError("a structured type of more than 4096 fields");
     return parse_type(type.text, field.number, bytes);
   }
-  if (type.kind != Kind::kList || type.items.empty()) return absl::InvalidArgumentError("the header is damaged: no dtype can be read from it");
+  if (type.kind != Kind::kList || type.items.empty())
+    return absl::InvalidArgumentError("the header is damaged: no dtype can be read from it");
   bytes = 0;
   for (const PythonLiteral& part : type.items) {
     if (part.kind != Kind::kList || part.items.size() < 2 || part.items.size() > 3) {
@@ -117,7 +124,8 @@ absl::StatusOr<NpyHeader> parse_npy_header(absl::string_view dictionary) {
     // Python 2 wrote "3L".
     const absl::string_view digits = absl::string_view(length.text).substr(0, length.text.find('L'));
     if (length.kind != Kind::kNumber || !absl::SimpleAtoi(digits, &header.shape.emplace_back())) {
-      return absl::InvalidArgumentError(absl::StrCat("the header is damaged: the shape has the length ", excerpt(length.text)));
+      return absl::InvalidArgumentError(
+          absl::StrCat("the header is damaged: the shape has the length ", excerpt(length.text)));
     }
   }
   if (auto status = add_fields(*type, "", 0, header, header.item_bytes); !status.ok()) return status;
@@ -127,7 +135,8 @@ absl::StatusOr<NpyHeader> parse_npy_header(absl::string_view dictionary) {
 
 std::string npy_header(std::uint64_t rows, std::uint64_t columns) {
   // With the padding that the format asks for.
-  return with_magic(absl::StrCat("{'descr': '<f4', 'fortran_order': False, 'shape': (", rows, ", ", columns, "), }"), 128);
+  return with_magic(absl::StrCat("{'descr': '<f4', 'fortran_order': False, 'shape': (", rows, ", ", columns, "), }"),
+                    128);
 }
 
 std::string npy_header(std::uint64_t rows, const std::vector<std::string>& names) {

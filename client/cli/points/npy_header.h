@@ -16,7 +16,8 @@ struct NpyNumber {
   bool big_endian = false;
 };
 
-// A named part of an element. A field of several numbers ("pos" of 3) is one entry for each ("pos x", "pos y", "pos z").
+// A named part of an element. A field of several numbers ("pos" of 3) is one entry for each ("pos x", "pos y", "pos
+// z").
 struct NpyField {
   std::string name;
   std::size_t offset = 0;
@@ -35,8 +36,8 @@ struct NpyHeader {
   bool is_structured() const { return fields.size() != 1 || !fields[0].name.empty(); }
 };
 
-// The dictionary of a header: a Python literal. INVALID_ARGUMENT: it is damaged, or describes what has no numbers, such as pickled
-// objects.
+// The dictionary of a header: a Python literal. INVALID_ARGUMENT: it is damaged, or describes what has no numbers, such
+// as pickled objects.
 absl::StatusOr<NpyHeader> parse_npy_header(absl::string_view dictionary);
 
 // The start of a NumPy file (version 1.0) of float32 [rows, columns], row after row: 128 bytes, whatever the numbers.

@@ -92,7 +92,8 @@ absl::Status NpyPoints::choose_fields(const NpyHeader& header, const VectorColum
   if (const auto distance = find_column(names, kDistanceColumn)) places.push_back(*distance);
   for (const std::size_t place : places) {
     if (header.fields[place].number.bytes == 0) {
-      return refuse(absl::StrCat("the field ", list_names({names[place]}), " holds no numbers; expected integers or floats"));
+      return refuse(
+          absl::StrCat("the field ", list_names({names[place]}), " holds no numbers; expected integers or floats"));
     }
     chosen_.push_back(header.fields[place]);
   }
@@ -105,8 +106,8 @@ absl::Status NpyPoints::choose_fields(const NpyHeader& header, const VectorColum
 
 absl::Status NpyPoints::choose_columns(const NpyHeader& header, const VectorColumns& wanted) {
   if (header.shape.size() != 2 || header.shape[1] < 3 || header.shape[1] > kMostColumns) {
-    return refuse(absl::StrCat("shape (", absl::StrJoin(header.shape, ", "), "); expected (n, 3), or up to ", kMostColumns,
-                               " columns of which the first three are x, y, z"));
+    return refuse(absl::StrCat("shape (", absl::StrJoin(header.shape, ", "), "); expected (n, 3), or up to ",
+                               kMostColumns, " columns of which the first three are x, y, z"));
   }
   const std::size_t columns = header.shape[1];
   const auto found = choose_vector(wanted, {}, columns);

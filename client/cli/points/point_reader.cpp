@@ -16,9 +16,8 @@ absl::StatusOr<std::unique_ptr<PointReader>> open_points(const std::string& path
   const std::string name = file->name();
   const absl::string_view what = foreign_file(file->start());
   if (!what.empty() || absl::EndsWithIgnoreCase(name, ".npy")) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(name, ": ", what.empty() ? "not a NumPy array (.npy)" : what,
-                     "; expected points as text (.csv) or as a NumPy array (.npy)"));
+    return absl::InvalidArgumentError(absl::StrCat(name, ": ", what.empty() ? "not a NumPy array (.npy)" : what,
+                                                   "; expected points as text (.csv) or as a NumPy array (.npy)"));
   }
   return std::make_unique<TextPoints>(*std::move(file), wanted);
 }

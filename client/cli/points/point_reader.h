@@ -26,22 +26,25 @@ class PointReader {
   virtual std::vector<std::string> notes() const = 0;
 };
 
-// "-" is the standard input. A file that begins with NumPy's magic bytes is an array, whatever its name is; else it is text.
+// "-" is the standard input. A file that begins with NumPy's magic bytes is an array, whatever its name is; else it is
+// text.
 //
 // Which columns hold the vectors:
 //  - With a header (text) or fields (NumPy's structured types): those that find_vector() chooses by their names.
 //    INVALID_ARGUMENT: they are not there.
 //  - Without: the first three, with a note on the others.
-// Rows whose column "distance" is not finite are left out, with a note: `isofield ray` writes them for rays that hit nothing.
+// Rows whose column "distance" is not finite are left out, with a note: `isofield ray` writes them for rays that hit
+// nothing.
 //
 // Text is read as table_head.h says: a point a line, cells between commas, semicolons, tabs or blanks, decimal commas
-// between semicolons only, lines that end at LF, CR LF or CR. NumPy: versions 1 to 3, shape (n, 3 to 64) or a structured type of shape
-// (n,); integers and floats of any size and byte order; C or Fortran order.
+// between semicolons only, lines that end at LF, CR LF or CR. NumPy: versions 1 to 3, shape (n, 3 to 64) or a
+// structured type of shape (n,); integers and floats of any size and byte order; C or Fortran order.
 absl::StatusOr<std::unique_ptr<PointReader>> open_points(const std::string& path, const VectorColumns& wanted = {});
 
 // What --help says of such files.
 inline constexpr char kPointsHelp[] =
-    "Text with a point a line (.csv) or a NumPy array (.npy); - is the standard input. Columns or fields named x, y, z, "
+    "Text with a point a line (.csv) or a NumPy array (.npy); - is the standard input. Columns or fields named x, y, "
+    "z, "
     "in any order; without names the first three. Rows of `isofield ray` that hit nothing are left out";
 
 }  // namespace isofield

@@ -44,7 +44,9 @@ class Parser {
       return parse_items('}', depth, value);
     }
     std::size_t length = 0;
-    while (length < rest_.size() && (absl::ascii_isalnum(rest_[length]) || rest_[length] == '-' || rest_[length] == '_')) ++length;
+    while (length < rest_.size() &&
+           (absl::ascii_isalnum(rest_[length]) || rest_[length] == '-' || rest_[length] == '_'))
+      ++length;
     value.kind = absl::ascii_isdigit(first) || first == '-' ? Kind::kNumber : Kind::kName;
     value.text = std::string(rest_.substr(0, length));
     rest_.remove_prefix(length);
@@ -66,7 +68,8 @@ class Parser {
   bool parse_items(char close, int depth, PythonLiteral& value) {
     while (!take(close)) {
       if (!parse_value(depth + 1, value.items.emplace_back())) return false;
-      if (value.kind == Kind::kDictionary && (!take(':') || !parse_value(depth + 1, value.items.emplace_back()))) return false;
+      if (value.kind == Kind::kDictionary && (!take(':') || !parse_value(depth + 1, value.items.emplace_back())))
+        return false;
       if (take(close)) return true;
       if (!take(',')) return false;
     }

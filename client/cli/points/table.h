@@ -32,8 +32,9 @@ class Table {
   std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
 
   // By the name: *.npy is a NumPy array [rows] of structures, with a float32 field a column of numbers and without the
-  // columns of texts, so that the fields keep their names; *.json an object of arrays by column, infinities null; anything else text with a header, nine significant digits each, which give a
-  // float32 back to the bit. Does not commit the file.
+  // columns of texts, so that the fields keep their names; *.json an object of arrays by column, infinities null;
+  // anything else text with a header, nine significant digits each, which give a float32 back to the bit. Does not
+  // commit the file.
   absl::Status write(const std::string& path, OutputFile& file) const;
 
  private:

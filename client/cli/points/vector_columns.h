@@ -15,8 +15,8 @@ struct VectorColumns {
   bool is_second = false;
 };
 
-// The places of a table's vectors: by the names, else the first three of `columns`, 0 of which are those of a table without rows.
-// INVALID_ARGUMENT: they are not there; says what is expected.
+// The places of a table's vectors: by the names, else the first three of `columns`, 0 of which are those of a table
+// without rows. INVALID_ARGUMENT: they are not there; says what is expected.
 absl::StatusOr<std::array<std::size_t, 3>> choose_vector(const VectorColumns& wanted, const ColumnNames& names,
                                                          std::size_t columns);
 

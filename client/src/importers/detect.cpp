@@ -26,8 +26,9 @@ constexpr std::size_t kRowsLookedAt = 200;
 
 absl::Status refuse(const std::string& name, absl::string_view what) {
   return absl::InvalidArgumentError(
-      absl::StrCat(name, ": ", what, "; expected a scene (.json, .pb), a neuron (.swc), a molecule (.pdb, .ent, .cif, .xyz) "
-                                     "or points, one \"x y z\" a line (.xyz, .txt, .csv)"));
+      absl::StrCat(name, ": ", what,
+                   "; expected a scene (.json, .pb), a neuron (.swc), a molecule (.pdb, .ent, .cif, .xyz) "
+                   "or points, one \"x y z\" a line (.xyz, .txt, .csv)"));
 }
 
 bool is_text(absl::string_view bytes) {
@@ -51,8 +52,7 @@ bool is_scene_message(const std::string& content) {
   v1::Scene scene;
   if (!scene.ParseFromString(content)) return false;
   if (scene.nodes_size() == 0) return content.empty();
-  return
-         scene.GetReflection()->GetUnknownFields(scene).empty() &&
+  return scene.GetReflection()->GetUnknownFields(scene).empty() &&
          scene.nodes(0).GetReflection()->GetUnknownFields(scene.nodes(0)).empty();
 }
 
@@ -70,15 +70,15 @@ bool is_pdb_record(absl::string_view line) {
     // Coordinates are in columns 31 to 54.
     if (absl::StartsWith(line, record)) return line.size() >= 54;
   }
-  for (const char* const record : {"HEADER", "TITLE ", "COMPND", "SOURCE", "KEYWDS", "EXPDTA", "AUTHOR", "REVDAT", "REMARK",
-                                   "CRYST1", "MODEL ", "SEQRES", "OBSLTE", "SPLIT ", "CAVEAT", "NUMMDL"}) {
+  for (const char* const record : {"HEADER", "TITLE ", "COMPND", "SOURCE", "KEYWDS", "EXPDTA", "AUTHOR", "REVDAT",
+                                   "REMARK", "CRYST1", "MODEL ", "SEQRES", "OBSLTE", "SPLIT ", "CAVEAT", "NUMMDL"}) {
     if (absl::StartsWith(line, record)) return true;
   }
   return false;
 }
 
-// Tells XYZ's molecules, "count, comment, lines of: element x y z", and Tinker's, "count title, lines of: index element x y
-// z ...", from points after a count.
+// Tells XYZ's molecules, "count, comment, lines of: element x y z", and Tinker's, "count title, lines of: index element
+// x y z ...", from points after a count.
 std::optional<FileKind> kind_by_count(absl::string_view text) {
   LineReader lines(text);
   absl::string_view count, second, third;
@@ -87,7 +87,9 @@ std::optional<FileKind> kind_by_count(absl::string_view text) {
   } while (count.empty());
   const auto fields = split_fields(count);
   if (fields.empty() || !parse_integer(fields[0]) || !lines.next(second)) return std::nullopt;
-  const auto names_element = [](absl::string_view field) { return absl::ascii_isalpha(static_cast<unsigned char>(field[0])); };
+  const auto names_element = [](absl::string_view field) {
+    return absl::ascii_isalpha(static_cast<unsigned char>(field[0]));
+  };
   const auto is_tinker = [&](absl::string_view text_line) {
     const auto atom = split_fields(text_line);
     return atom.size() >= 6 && parse_integer(atom[0]) && names_element(atom[1]) && are_numbers(atom, 2, 4);
@@ -99,7 +101,8 @@ std::optional<FileKind> kind_by_count(absl::string_view text) {
   if (!has_third) return FileKind::kXyz;
   const auto element = split_fields(third);
   // Elements may be numbers, and columns may come in another order; points have numbers in their second line, too.
-  if (element.size() >= 4 && (!is_number(element[0]) || !are_numbers(split_fields(second), 0, 3))) return FileKind::kXyz;
+  if (element.size() >= 4 && (!is_number(element[0]) || !are_numbers(split_fields(second), 0, 3)))
+    return FileKind::kXyz;
   return std::nullopt;
 }
 
@@ -122,7 +125,8 @@ bool is_swc(absl::string_view text) {
   // What comes after the part that is looked at may hold parents of these; lines of rubbish do occur.
   std::size_t linked = 0;
   for (const SwcRow& sample : samples) linked += sample.is_root || ids.contains(sample.parent) ? 1 : 0;
-  const bool has_root = std::any_of(samples.begin(), samples.end(), [](const SwcRow& sample) { return sample.is_root; });
+  const bool has_root =
+      std::any_of(samples.begin(), samples.end(), [](const SwcRow& sample) { return sample.is_root; });
   return !samples.empty() && 4 * others <= samples.size() && 2 * linked > samples.size() &&
          (has_root || samples.size() == kRowsLookedAt);
 }
@@ -150,7 +154,6 @@ std::optional<FileKind> kind_by_text(absl::string_view text) {
   absl::string_view line;
   while (lines.next_raw(line) && is_comment(line)) {
   }
-  if (lines.number() == 1) absl::ConsumePrefix(&line, "\xEF\xBB\xBF");
   if (absl::StartsWithIgnoreCase(line, "data_")) return FileKind::kMmcif;
   if (is_pdb_record(line)) return FileKind::kPdb;
   if (const auto kind = kind_by_count(text)) return kind;
@@ -176,28 +179,30 @@ FileKind kind_of(ImportFormat format) {
 
 }  // namespace
 
-absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::string& name) {
+absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::string& path) {
+  // What was packed is named after what it holds.
+  const std::string name(absl::StripSuffix(path, ".gz"));
   if (is_json(content)) return FileKind::kSceneJson;
   const bool is_named_message = absl::EndsWithIgnoreCase(name, ".pb");
   const absl::string_view start = absl::string_view(content).substr(0, kLookedAt);
-  if (content.empty() && !is_named_message) return refuse(name, "the file is empty");
-  if (const auto what = foreign_file(start); !what.empty()) return refuse(name, what);
+  if (content.empty() && !is_named_message) return refuse(path, "the file is empty");
+  if (const auto what = foreign_file(start); !what.empty()) return refuse(path, what);
   if (is_named_message || !is_text(start)) {
     if (is_scene_message(content)) return FileKind::kSceneMessage;
-    if (is_binary_stl(content)) return refuse(name, "an STL mesh");
+    if (is_binary_stl(content)) return refuse(path, "an STL mesh");
   }
   const auto by_name = import_format(name);
   if (!is_text(start.substr(0, 4096))) {
-    return refuse(name, is_named_message ? "not a binary isofield.v1.Scene message" : "binary data of an unknown kind");
+    return refuse(path, is_named_message ? "not a binary isofield.v1.Scene message" : "binary data of an unknown kind");
   }
   if (const auto kind = kind_by_text(start)) return *kind;
-  if (const auto what = foreign_text(start); !what.empty()) return refuse(name, what);
+  if (const auto what = foreign_text(start); !what.empty()) return refuse(path, what);
   // A molecule's or neuron's reader says best what is wrong with a file of its name, but for points in a .xyz file.
   if (by_name && by_name != ImportFormat::kXyz) return kind_of(*by_name);
   if (has_points(start)) return FileKind::kPoints;
   if (by_name) return kind_of(*by_name);
   if (absl::EndsWithIgnoreCase(name, ".json")) return FileKind::kSceneJson;
-  return refuse(name, "nothing in it says what it is");
+  return refuse(path, "nothing in it says what it is");
 }
 
 }  // namespace isofield

@@ -35,7 +35,9 @@ constexpr Magic kMagics[] = {
     {"PK\5\6", "an empty ZIP archive"},
     {"\x1F\x8B", "a gzip archive"},
     {"BZh", "a bzip2 archive"},
-    {"\xFD" "7zXZ", "an xz archive"},
+    {"\xFD"
+     "7zXZ",
+     "an xz archive"},
     {"\x28\xB5\x2F\xFD", "a Zstandard archive"},
     {"7z\xBC\xAF", "a 7-Zip archive"},
     {"Rar!", "a RAR archive"},
@@ -45,7 +47,9 @@ constexpr Magic kMagics[] = {
     {"CDF\2", "a NetCDF file"},
     {"glTF", "a GLB mesh"},
     {"\x93NUMPY", "a NumPy array"},
-    {"\x7F" "ELF", "a program"},
+    {"\x7F"
+     "ELF",
+     "a program"},
     {"MZ\x90", "a program"},
     {"SQLite format 3", "an SQLite database"},
     {"DICM", "a DICOM picture", 128},
@@ -60,12 +64,8 @@ constexpr Magic kMagics[] = {
 };
 
 constexpr Magic kTexts[] = {
-    {"# vtk DataFile", "a VTK file"},
-    {"SIMPLE  =", "a FITS picture"},
-    {"@<TRIPOS>", "a MOL2 molecule"},
-    {"#VRML", "a VRML model"},
-    {"# .PCD", "a PCD point cloud"},
-    {"VERSION .7", "a PCD point cloud"},
+    {"# vtk DataFile", "a VTK file"}, {"SIMPLE  =", "a FITS picture"}, {"@<TRIPOS>", "a MOL2 molecule"},
+    {"#VRML", "a VRML model"},        {"# .PCD", "a PCD point cloud"}, {"VERSION .7", "a PCD point cloud"},
     {"<", "XML or a web page"},
 };
 
@@ -98,7 +98,8 @@ absl::string_view foreign_text(absl::string_view start) {
   absl::string_view line, first;
   for (int content = 0; content < 12 && lines.next(line);) {
     // The fourth line of a MOL block states its version; the first three may be empty.
-    if (lines.number() == 4 && (absl::EndsWith(line, "V2000") || absl::EndsWith(line, "V3000"))) return "an SDF or MOL molecule";
+    if (lines.number() == 4 && (absl::EndsWith(line, "V2000") || absl::EndsWith(line, "V3000")))
+      return "an SDF or MOL molecule";
     if (line.empty() || line.front() == '#') continue;
     ++content;
     if (first.empty()) first = line;

@@ -4,8 +4,8 @@
 
 namespace isofield {
 
-// What a file is that isofield does not read, such as "a PNG picture", by the bytes that it begins with (512 do, or all).
-// Empty: none of those that are known.
+// What a file is that isofield does not read, such as "a PNG picture", by the bytes that it begins with (512 do, or
+// all). Empty: none of those that are known.
 absl::string_view foreign_file(absl::string_view start);
 
 // The same of texts: meshes, other molecules, web pages.

@@ -42,10 +42,11 @@ absl::StatusOr<std::optional<std::size_t>> radius_column(const TableHead& head, 
   }
   const auto column = find_column(head.names(), absl::AsciiStrToLower(asked));
   if (column) return column;
-  return absl::InvalidArgumentError(absl::StrCat(
-      "radius column \"", asked, "\": ",
-      head.names().empty() ? "there is no header; expected a column's number from 1"
-                           : absl::StrCat("expected one of the columns ", list_names(head.names()), ", or its number")));
+  return absl::InvalidArgumentError(
+      absl::StrCat("radius column \"", asked, "\": ",
+                   head.names().empty()
+                       ? "there is no header; expected a column's number from 1"
+                       : absl::StrCat("expected one of the columns ", list_names(head.names()), ", or its number")));
 }
 
 class PointImport {
@@ -77,7 +78,8 @@ class PointImport {
     has_radius_ = radius->has_value();
     if (has_radius_) {
       for (const std::size_t place : places) {
-        if (place == **radius) return absl::InvalidArgumentError("the radius column holds a coordinate; expected another one");
+        if (place == **radius)
+          return absl::InvalidArgumentError("the radius column holds a coordinate; expected another one");
       }
       places.push_back(**radius);
     } else if (head_.names().empty() && head_.columns() > 3) {

@@ -24,13 +24,13 @@ bool LineReader::next_raw(absl::string_view& line) {
     rest_.remove_prefix(end + (rest_.substr(end, 2) == "\r\n" ? 2 : 1));
   }
   ++number_;
+  // A byte order mark at the start of a file is no part of its first field.
+  if (number_ == 1 && line.substr(0, 3) == "\xEF\xBB\xBF") line.remove_prefix(3);
   return true;
 }
 
 bool LineReader::next(absl::string_view& line) {
   if (!next_raw(line)) return false;
-  // A byte order mark at the start of a file is no part of its first field.
-  if (number_ == 1 && line.substr(0, 3) == "\xEF\xBB\xBF") line.remove_prefix(3);
   line = absl::StripAsciiWhitespace(line);
   return true;
 }

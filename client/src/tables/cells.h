@@ -17,8 +17,8 @@ inline constexpr Separator kBlanks = ' ';
 // The one that a line seems to be written with; those within double quotes do not count.
 Separator find_separator(absl::string_view line);
 
-// The cells of a line without blanks around them and without their double quotes (RFC 4180). A separator at the end of the
-// line is followed by an empty cell, but for kBlanks.
+// The cells of a line without blanks around them and without their double quotes (RFC 4180). A separator at the end of
+// the line is followed by an empty cell, but for kBlanks.
 std::vector<absl::string_view> split_cells(absl::string_view line, Separator separator);
 
 // The end of the cell that begins at `begin`: the next separator outside of double quotes, or `end`. Not for kBlanks.

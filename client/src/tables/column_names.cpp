@@ -13,12 +13,12 @@
 namespace isofield {
 namespace {
 
-constexpr const char* kUnits[] = {"nm", "um",  "mum", "micron", "microns", "micrometer", "micrometre", "mm",
-                                  "cm", "m",   "km",  "a",      "ang",     "angstrom",   "angstroms",  "px",
-                                  "pixel", "pixels", "vx", "voxel", "voxels"};
-constexpr const char* kPositionWords[] = {"position", "positions", "pos",    "point",  "points",   "coord",    "coords",
-                                          "coordinate", "coordinates", "center", "centre", "centroid", "location", "loc",
-                                          "xyz"};
+constexpr const char* kUnits[] = {"nm",        "um", "mum",   "micron", "microns", "micrometer", "micrometre",
+                                  "mm",        "cm", "m",     "km",     "a",       "ang",        "angstrom",
+                                  "angstroms", "px", "pixel", "pixels", "vx",      "voxel",      "voxels"};
+constexpr const char* kPositionWords[] = {"position", "positions", "pos",        "point",       "points",
+                                          "coord",    "coords",    "coordinate", "coordinates", "center",
+                                          "centre",   "centroid",  "location",   "loc",         "xyz"};
 constexpr const char* kOriginWords[] = {"origin", "origins", "start"};
 constexpr const char* kDirectionWords[] = {"direction", "directions", "dir"};
 constexpr const char* kNormalWords[] = {"normal", "normals", "norm"};
@@ -52,7 +52,9 @@ std::vector<std::string> words_of(absl::string_view name) {
     if (is_part) words.back().push_back(absl::ascii_tolower(static_cast<unsigned char>(c)));
     inside = is_part;
   }
-  const auto is_micro = [](absl::string_view word) { return word == "\xC2\xB5m" || word == "\xCE\xBCm" || word == "\xB5m"; };
+  const auto is_micro = [](absl::string_view word) {
+    return word == "\xC2\xB5m" || word == "\xCE\xBCm" || word == "\xB5m";
+  };
   if (words.size() > 1 && (is_one_of(words.back(), kUnits) || is_micro(words.back()))) words.pop_back();
   return words;
 }
@@ -68,7 +70,8 @@ std::optional<std::size_t> axis_in(const std::vector<std::string>& words, const 
     if (absl::ConsumePrefix(&word, family.letter) && axis_of(word)) return axis_of(word);
     for (const char* const known : family.words) {
       absl::string_view rest = words[0];
-      if ((absl::ConsumePrefix(&rest, known) || absl::ConsumeSuffix(&rest, known)) && axis_of(rest)) return axis_of(rest);
+      if ((absl::ConsumePrefix(&rest, known) || absl::ConsumeSuffix(&rest, known)) && axis_of(rest))
+        return axis_of(rest);
     }
   }
   if (words.size() != 2) return std::nullopt;
@@ -112,9 +115,9 @@ absl::StatusOr<std::array<std::size_t, 3>> find_vector(const ColumnNames& names,
     }
     return std::array<std::size_t, 3>{found[0][0], found[1][0], found[2][0]};
   }
-  return absl::InvalidArgumentError(absl::StrCat("the columns are ", list_names(names), "; expected ",
-                                                 families.front()->spoken,
-                                                 role == VectorRole::kPosition ? "" : " (or x, y and z)", " among them"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("the columns are ", list_names(names), "; expected ", families.front()->spoken,
+                   role == VectorRole::kPosition ? "" : " (or x, y and z)", " among them"));
 }
 
 std::optional<std::size_t> find_column(const ColumnNames& names, const std::string& name) {

@@ -10,8 +10,8 @@
 
 namespace isofield {
 
-// The columns of a table by the names in its header. Case, quotes, blanks and a unit do not matter: "X (um)", "x[nm]" and
-// "x_px" are x. Names in double quotes come without them.
+// The columns of a table by the names in its header. Case, quotes, blanks and a unit do not matter: "X (um)", "x[nm]"
+// and "x_px" are x. Names in double quotes come without them.
 using ColumnNames = std::vector<std::string>;
 
 // What three columns of a table are read as.

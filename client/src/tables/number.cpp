@@ -1,5 +1,6 @@
 #include "tables/number.h"
 
+#include <absl/strings/ascii.h>
 #include <absl/strings/charconv.h>
 
 #include <algorithm>
@@ -8,6 +9,20 @@
 #include <string>
 
 namespace isofield {
+namespace {
+
+// "1.5D+03", where from_chars() stopped at the D.
+const char* scan_fortran_double(const char* begin, const char* exponent, const char* end, double& value) {
+  const char* stop = exponent + 1;
+  if (stop != end && (*stop == '+' || *stop == '-')) ++stop;
+  while (stop != end && absl::ascii_isdigit(static_cast<unsigned char>(*stop))) ++stop;
+  std::string text(begin, stop);
+  text[static_cast<std::size_t>(exponent - begin)] = 'e';
+  const char* const after = scan_double(text.data(), text.data() + text.size(), value);
+  return after == text.data() + text.size() ? stop : nullptr;
+}
+
+}  // namespace
 
 const char* scan_double(const char* begin, const char* end, double& value) {
   if (begin != end && *begin == '+') {
@@ -15,7 +30,9 @@ const char* scan_double(const char* begin, const char* end, double& value) {
     if (begin != end && *begin == '-') return nullptr;
   }
   const auto [after, error] = std::from_chars(begin, end, value);
-  if (error == std::errc()) return after;
+  if (error == std::errc()) {
+    return after != end && (*after == 'D' || *after == 'd') ? scan_fortran_double(begin, after, end, value) : after;
+  }
   if (error != std::errc::result_out_of_range) return nullptr;
   // The standard function does not say whether the number is too large or too small; this one leaves the nearest.
   absl::from_chars(begin, end, value);

@@ -6,8 +6,8 @@
 
 namespace isofield {
 
-// Reads the number that a text begins with, infinities and NaN included. Returns where it ends, or nullptr where there
-// is none. What is too large for a double is infinite, what is too small is 0.
+// Reads the number that a text begins with; infinities, NaN and Fortran's exponents ("1.5D+03") included. Returns where
+// it ends, or nullptr where there is none. What is too large for a double is infinite, what is too small is 0.
 const char* scan_double(const char* begin, const char* end, double& value);
 
 // The whole text as a number. Nothing: it is none.

@@ -29,7 +29,8 @@ const char* skip_separators(const char* at, const char* end) {
 
 bool has_comma_between_digits(absl::string_view text) {
   for (std::size_t at = text.find(','); at != absl::string_view::npos; at = text.find(',', at + 1)) {
-    if (at > 0 && at + 1 < text.size() && absl::ascii_isdigit(text[at - 1]) && absl::ascii_isdigit(text[at + 1])) return true;
+    if (at > 0 && at + 1 < text.size() && absl::ascii_isdigit(text[at - 1]) && absl::ascii_isdigit(text[at + 1]))
+      return true;
   }
   return false;
 }
@@ -52,7 +53,8 @@ const char* RowNumbers::scan_cell(const char* begin, const char* end, double& va
   if (begin != end && *begin == '"') {
     const char* const close = std::find(begin + 1, end, '"');
     if (close == end) return nullptr;
-    const auto number = cell_number(absl::StripAsciiWhitespace({begin + 1, static_cast<std::size_t>(close - begin - 1)}), separator_);
+    const auto number =
+        cell_number(absl::StripAsciiWhitespace({begin + 1, static_cast<std::size_t>(close - begin - 1)}), separator_);
     value = number.value_or(0);
     return number ? close + 1 : nullptr;
   }
@@ -74,7 +76,8 @@ absl::Status RowNumbers::parse(absl::string_view row, double* numbers) const {
       if (separator_ == kBlanks) {
         if (at == end) return refuse(row, column);
         bool quoted = false;
-        for (; at != end && (quoted || !(is_blank(*at) || *at == ',' || *at == ';')); ++at) quoted = quoted != (*at == '"');
+        for (; at != end && (quoted || !(is_blank(*at) || *at == ',' || *at == ';')); ++at)
+          quoted = quoted != (*at == '"');
       } else {
         at = cell_end(at, end, separator_);
       }
@@ -122,7 +125,8 @@ absl::Status RowNumbers::refuse(absl::string_view row, std::size_t column) const
     const std::vector<absl::string_view> cells = split_cells(row, separator_);
     expected = absl::StrCat("expected a number in column ", excerpt(names_[column]));
     if (cells.size() < names_.size()) {
-      absl::StrAppend(&expected, " and ", names_.size(), " cells, as many as the header names; the line has ", cells.size());
+      absl::StrAppend(&expected, " and ", names_.size(), " cells, as many as the header names; the line has ",
+                      cells.size());
     }
   } else {
     expected = wanted_ == 3 ? "expected three numbers x,y,z" : absl::StrCat("expected a number in column ", column + 1);

@@ -14,8 +14,8 @@ namespace isofield {
 // Reads the numbers of some columns of a table's rows, without a look at the others.
 class RowNumbers {
  public:
-  // `places`: the column of each number that parse() returns, all different. `names`: of all columns; empty: there is no header, and
-  // a row may have any number of columns from the last of the places on.
+  // `places`: the column of each number that parse() returns, all different. `names`: of all columns; empty: there is
+  // no header, and a row may have any number of columns from the last of the places on.
   RowNumbers(Separator separator, std::vector<std::size_t> places, ColumnNames names);
 
   // Writes as many numbers as there are places; they may be infinite or NaN. INVALID_ARGUMENT: a cell is missing or no
