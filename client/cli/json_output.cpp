@@ -1,72 +1,180 @@
 #include "json_output.h"
 
-#include <google/protobuf/util/json_util.h>
+#include <absl/strings/escaping.h>
+#include <absl/strings/str_cat.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 
 namespace isofield {
 namespace {
 
-std::string format(const google::protobuf::Message& message) {
-  google::protobuf::util::JsonPrintOptions options;
-  options.preserve_proto_field_names = true;
-  options.always_print_primitive_fields = true;
-  std::string out;
-  // Our own messages always have a JSON form.
-  (void)google::protobuf::util::MessageToJsonString(message, &out, options);
-  return out;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+
+// The shortest digits that give the number back.
+template <class Number>
+std::string number(Number value) {
+  if (!std::isfinite(value)) return "null";
+  char digits[32];
+  return std::string(digits, std::to_chars(digits, digits + sizeof(digits), value).ptr);
+}
+
+// The length of the UTF-8 character that starts there; 0: none does.
+std::size_t character_length(absl::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) >= 0x80 && (byte(0) < 0xc2 || byte(0) > 0xf4)) return 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  }
+  // Overlong forms, surrogates and what is beyond Unicode.
+  const unsigned first = length > 1 ? byte(1) : 0;
+  if ((byte(0) == 0xe0 && first < 0xa0) || (byte(0) == 0xed && first > 0x9f) || (byte(0) == 0xf0 && first < 0x90) ||
+      (byte(0) == 0xf4 && first > 0x8f)) {
+    return 0;
+  }
+  return length;
+}
+
+// In quotes. Names of files need not be UTF-8, which JSON is: what is none becomes U+FFFD.
+std::string quoted(absl::string_view text) {
+  std::string out = "\"";
+  while (!text.empty()) {
+    const char c = text.front();
+    const std::size_t length = character_length(text);
+    if (length == 0) {
+      out += "\xef\xbf\xbd";
+    } else if (c == '"' || c == '\\') {
+      absl::StrAppend(&out, "\\", text.substr(0, 1));
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (length == 1 && c < 0x20) {
+      absl::StrAppend(&out, "\\u", absl::Hex(c, absl::kZeroPad4));
+    } else {
+      absl::StrAppend(&out, text.substr(0, length));
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out + "\"";
+}
+
+template <class Items, class Format>
+std::string list(const Items& items, const Format& format) {
+  std::string out = "[";
+  for (const auto& item : items) absl::StrAppend(&out, out.size() > 1 ? "," : "", format(item));
+  return out + "]";
+}
+
+// A field's value, or that of its element `i` where it is a list.
+std::string value_of(const Message& message, const FieldDescriptor* field, int i) {
+  const Reflection& r = *message.GetReflection();
+  const bool is_list = field->is_repeated();
+  switch (field->cpp_type()) {
+    case FieldDescriptor::CPPTYPE_INT32:
+      return absl::StrCat(is_list ? r.GetRepeatedInt32(message, field, i) : r.GetInt32(message, field));
+    case FieldDescriptor::CPPTYPE_INT64:
+      return absl::StrCat(is_list ? r.GetRepeatedInt64(message, field, i) : r.GetInt64(message, field));
+    case FieldDescriptor::CPPTYPE_UINT32:
+      return absl::StrCat(is_list ? r.GetRepeatedUInt32(message, field, i) : r.GetUInt32(message, field));
+    case FieldDescriptor::CPPTYPE_UINT64:
+      return absl::StrCat(is_list ? r.GetRepeatedUInt64(message, field, i) : r.GetUInt64(message, field));
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return number(is_list ? r.GetRepeatedDouble(message, field, i) : r.GetDouble(message, field));
+    case FieldDescriptor::CPPTYPE_FLOAT:
+      return number(is_list ? r.GetRepeatedFloat(message, field, i) : r.GetFloat(message, field));
+    case FieldDescriptor::CPPTYPE_BOOL:
+      return (is_list ? r.GetRepeatedBool(message, field, i) : r.GetBool(message, field)) ? "true" : "false";
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return quoted((is_list ? r.GetRepeatedEnum(message, field, i) : r.GetEnum(message, field))->name());
+    case FieldDescriptor::CPPTYPE_STRING: {
+      std::string scratch;
+      const std::string& text = is_list ? r.GetRepeatedStringReference(message, field, i, &scratch)
+                                        : r.GetStringReference(message, field, &scratch);
+      return quoted(field->type() == FieldDescriptor::TYPE_BYTES ? absl::Base64Escape(text) : text);
+    }
+    case FieldDescriptor::CPPTYPE_MESSAGE:
+      return JsonObject(is_list ? r.GetRepeatedMessage(message, field, i) : r.GetMessage(message, field)).text();
+  }
+  return "null";
 }
 
 }  // namespace
 
-JsonObject::JsonObject(const google::protobuf::Message& message) {
-  (void)google::protobuf::util::JsonStringToMessage(format(message), &fields_);
-}
-
-JsonObject& JsonObject::set(const std::string& key, const std::vector<std::string>& values) {
-  auto& list = *(*fields_.mutable_fields())[key].mutable_list_value();
-  for (const std::string& value : values) list.add_values()->set_string_value(value);
-  return *this;
+JsonObject::JsonObject(const Message& message) {
+  const Reflection& reflection = *message.GetReflection();
+  for (int n = 0; n < message.GetDescriptor()->field_count(); ++n) {
+    const FieldDescriptor* field = message.GetDescriptor()->field(n);
+    if (field->is_repeated()) {
+      std::string text = "[";
+      for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
+        absl::StrAppend(&text, i > 0 ? "," : "", value_of(message, field, i));
+      }
+      set_text(field->name(), text + "]");
+    } else if (!field->has_presence() || reflection.HasField(message, field)) {
+      set_text(field->name(), value_of(message, field, 0));
+    }
+  }
 }
 
 JsonObject& JsonObject::set(const std::string& key, double value) {
-  (*fields_.mutable_fields())[key].set_number_value(value);
-  return *this;
+  return set_text(key, number(value));
 }
 
 JsonObject& JsonObject::set(const std::string& key, const std::string& value) {
-  (*fields_.mutable_fields())[key].set_string_value(value);
+  return set_text(key, quoted(value));
+}
+
+JsonObject& JsonObject::set(const std::string& key, const std::vector<std::string>& values) {
+  return set_text(key, list(values, quoted));
+}
+
+JsonObject& JsonObject::set(const std::string& key, const std::vector<double>& values) {
+  return set_text(key, list(values, number<double>));
+}
+
+JsonObject& JsonObject::set(const std::string& key, const std::vector<JsonObject>& values) {
+  return set_text(key, list(values, [](const JsonObject& value) { return value.text(); }));
+}
+
+JsonObject& JsonObject::set_text(const std::string& key, std::string text) {
+  const auto there = std::find_if(fields_.begin(), fields_.end(), [&](const auto& field) { return field.first == key; });
+  if (there != fields_.end()) {
+    there->second = std::move(text);
+  } else {
+    fields_.emplace_back(key, std::move(text));
+  }
   return *this;
 }
 
-JsonObject& JsonObject::set(const std::string& key, const JsonObject& value) {
-  *(*fields_.mutable_fields())[key].mutable_struct_value() = value.fields_;
-  return *this;
-}
-
-JsonObject& JsonObject::set(const std::string& key, const google::protobuf::Message& message) {
-  (void)google::protobuf::util::JsonStringToMessage(format(message),
-                                                    (*fields_.mutable_fields())[key].mutable_struct_value());
-  return *this;
+std::string JsonObject::text() const {
+  std::string out = "{";
+  for (const auto& [key, value] : fields_) {
+    absl::StrAppend(&out, out.size() > 1 ? "," : "", quoted(key), ":", value);
+  }
+  return out + "}";
 }
 
 void JsonObject::print() const {
-  print_json(fields_);
+  std::printf("%s\n", text().c_str());
 }
 
-void print_json(const google::protobuf::Message& message) {
-  std::printf("%s\n", format(message).c_str());
+void print_json(const Message& message) {
+  JsonObject(message).print();
 }
 
 JsonObject to_json(const ImportReport& report) {
-  JsonObject out;
-  out.set("format", report.format)
-      .set("read", static_cast<double>(report.read))
-      .set("pieces", static_cast<double>(report.pieces));
   JsonObject findings;
-  for (const auto& finding : report.findings) findings.set(finding.what, static_cast<double>(finding.count));
-  out.set("findings", findings);
-  return out;
+  for (const auto& finding : report.findings) findings.set(finding.what, finding.count);
+  return JsonObject()
+      .set("format", report.format)
+      .set("read", report.read)
+      .set("pieces", report.pieces)
+      .set("findings", findings);
 }
 
 }  // namespace isofield

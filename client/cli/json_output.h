@@ -1,37 +1,53 @@
 #pragma once
 
 #include <google/protobuf/message.h>
-#include <google/protobuf/struct.pb.h>
 
+#include <concepts>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "isofield/import.h"
 
 namespace isofield {
 
-// An object for --json, built field by field.
+// An object for --json, built field by field: keys keep the order in which they are set, and those of messages the
+// contract's. Numbers are numbers, 64-bit ones too; infinities and NaN are null.
 class JsonObject {
  public:
   JsonObject() = default;
-  // Starts with the fields of a message, written as set() writes them.
+  // Starts with the fields of a message, under the contract's names. Those that are not set are there with their defaults,
+  // except optional ones and messages. Enum values are names, bytes Base64.
   explicit JsonObject(const google::protobuf::Message& message);
 
   JsonObject& set(const std::string& key, double value);
+  template <std::integral Number>
+  JsonObject& set(const std::string& key, Number value) {
+    return set_text(key, std::to_string(value));
+  }
+  JsonObject& set(const std::string& key, bool value) { return set_text(key, value ? "true" : "false"); }
   JsonObject& set(const std::string& key, const std::string& value);
-  JsonObject& set(const std::string& key, const JsonObject& value);
+  JsonObject& set(const std::string& key, const char* value) { return set(key, std::string(value)); }
+  JsonObject& set(const std::string& key, const JsonObject& value) { return set_text(key, value.text()); }
   JsonObject& set(const std::string& key, const std::vector<std::string>& values);
-  // A message in proto3 JSON.
-  JsonObject& set(const std::string& key, const google::protobuf::Message& message);
+  JsonObject& set(const std::string& key, const std::vector<double>& values);
+  JsonObject& set(const std::string& key, const std::vector<JsonObject>& values);
+  JsonObject& set(const std::string& key, const google::protobuf::Message& message) {
+    return set(key, JsonObject(message));
+  }
 
+  std::string text() const;
   // One line on the standard output.
   void print() const;
 
  private:
-  google::protobuf::Struct fields_;
+  // A key that is there already keeps its place.
+  JsonObject& set_text(const std::string& key, std::string text);
+
+  std::vector<std::pair<std::string, std::string>> fields_;
 };
 
-// One line on the standard output: proto3 JSON with the contract's names and every field present.
+// One line on the standard output: the message as JsonObject writes it.
 void print_json(const google::protobuf::Message& message);
 
 JsonObject to_json(const ImportReport& report);

@@ -1,12 +1,31 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "commands/checks.h"
 #include "commands/context.h"
+#include "commands/usage.h"
+#include "error_report.h"
 #include "exit_codes.h"
 #include "output_file.h"
 #include "version.h"
+
+namespace isofield {
+namespace {
+
+// "-.5" is a number; CLI11 would take it for an option.
+std::vector<std::string> readable_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments(argv, argv + argc);
+  for (std::string& text : arguments) {
+    if (text.size() > 2 && text[0] == '-' && text[1] == '.' && text[2] >= '0' && text[2] <= '9') text.insert(1, "0");
+  }
+  return arguments;
+}
+
+}  // namespace
+}  // namespace isofield
 
 int main(int argc, char** argv) {
   using namespace isofield;
@@ -17,19 +36,25 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
+      "Each command has a --help of its own.\n"
       "Exit codes: 0 success; 1 the server refused the request or failed; 2 wrong usage; 3 no server answers;\n"
-      "4 a file cannot be read, understood or written.");
-  app.add_option("--server", context.server, "HOST:PORT, [IPV6]:PORT or unix:PATH")
+      "4 a file cannot be read, understood or written.\n"
+      "With --json an error is {\"error\": {\"code\", \"message\", \"exit_code\"}} on the standard output, with the words on the\n"
+      "standard error besides. Keys keep their order, numbers are numbers, and infinities and NaN are null.");
+  app.add_option("--server", context.server, "The server's address: HOST:PORT, [IPV6]:PORT or unix:PATH")
       ->envname("ISOFIELD_SERVER")
       ->default_str("127.0.0.1:50051");
-  app.add_option("--timeout", context.timeout, "Seconds for each request (default: 60; none for meshes and streams)")
-      ->check(CLI::Validator(check_positive, "above 0"));
-  app.add_flag("--json", context.json, "One JSON object on the standard output, for machines");
+  app.add_option("--timeout", context.timeout,
+                 "Seconds that each request may take (default: 60; meshes and large evaluations as long as they need)")
+      ->check(positive());
+  app.add_flag("--json", context.json,
+               "Print one JSON object on the standard output, for machines, instead of words; watch prints one a picture");
   add_catalog_commands(app, context);
   add_import_command(app, context);
   add_eval_command(app, context);
   add_mesh_command(app, context);
   add_render_command(app, context);
+  add_watch_command(app, context);
   add_measure_command(app, context);
   add_ray_command(app, context);
   add_project_command(app, context);
@@ -38,22 +63,21 @@ int main(int argc, char** argv) {
   add_operator_commands(app, context);
   add_info_command(app, context);
   context.server = "127.0.0.1:50051";
+  const std::vector<std::string> arguments = readable_arguments(argc, argv);
   try {
-    // "-.5" is a number; CLI11 would take it for an option.
-    std::vector<std::string> arguments(argv, argv + argc);
-    for (std::string& text : arguments) {
-      if (text.size() > 2 && text[0] == '-' && text[1] == '.' && text[2] >= '0' && text[2] <= '9') text.insert(1, "0");
-    }
     std::vector<const char*> texts;
     for (const std::string& text : arguments) texts.push_back(text.c_str());
     app.parse(argc, texts.data());
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kSuccess : kWrongUsage;
+    // The line was not understood as a whole, so the flag may not have been reached.
+    const bool json = std::count(arguments.begin(), arguments.end(), "--json") > 0;
+    const ExitCode code = report_error(usage_error(explain_usage(app, error)), json);
+    std::fprintf(stderr, "%s --help says more.\n", chosen_command(app).c_str());
+    return code;
   }
-  if (!context.outcome.ok()) {
-    const std::string message(context.outcome.message());
-    std::fprintf(stderr, "isofield: %s\n", message.c_str());
-  }
+  if (!context.outcome.ok()) report_error(context.outcome, context.json);
   // A full disk or a closed pipe shows when the output is flushed.
   if (std::fflush(stdout) != 0 && context.outcome.ok()) {
     std::perror("isofield: standard output");

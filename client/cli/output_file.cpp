@@ -26,6 +26,11 @@ void remove_and_die(int signal_number) {
   ::raise(signal_number);
 }
 
+void remove_and_end(int) {
+  if (is_pending) ::unlink(pending_path);
+  ::_exit(0);
+}
+
 absl::Status error(const std::string& path) {
   return absl::ErrnoToStatus(errno, absl::StrCat("cannot write ", path));
 }
@@ -39,6 +44,12 @@ void remove_output_when_interrupted() {
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal_number, &action, nullptr);
 }
 
+void end_well_when_interrupted() {
+  struct sigaction action {};
+  action.sa_handler = remove_and_end;
+  for (const int signal_number : {SIGINT, SIGTERM}) ::sigaction(signal_number, &action, nullptr);
+}
+
 absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(const std::string& path) {
   if (path == "-") return std::unique_ptr<OutputFile>(new OutputFile("the standard output", "", STDOUT_FILENO));
   struct stat information {};
@@ -48,16 +59,20 @@ absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(const std::string
     return std::unique_ptr<OutputFile>(new OutputFile(path, "", descriptor));
   }
   std::string temporary = path + ".XXXXXX";
-  const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
-  if (descriptor < 0) return error(path);
+  // Known to the signal handler before the file is there: mkostemp fills the name in.
+  const bool is_short = temporary.size() < sizeof(pending_path);
+  char* const name = is_short ? std::strcpy(pending_path, temporary.c_str()) : temporary.data();
+  is_pending = is_short ? 1 : 0;
+  const int descriptor = ::mkostemp(name, O_CLOEXEC);
+  if (descriptor < 0) {
+    is_pending = 0;
+    return error(path);
+  }
+  if (is_short) temporary = pending_path;
   // mkostemp gives the file to its owner alone; a new file is for whom the umask says.
   const mode_t mask = ::umask(0);
   ::umask(mask);
   ::fchmod(descriptor, 0666 & ~mask);
-  if (temporary.size() < sizeof(pending_path)) {
-    std::strcpy(pending_path, temporary.c_str());
-    is_pending = 1;
-  }
   return std::unique_ptr<OutputFile>(new OutputFile(path, temporary, descriptor));
 }
 

@@ -157,7 +157,10 @@ absl::StatusOr<Slice> Client::slice(v1::SliceRequest request) {
   });
   if (!status.ok()) return status;
   Slice slice;
-  slice.counts = {request.counts(0), request.counts(1)};
+  if (response.values().shape_size() != 2 || response.origin_size() != 3 || response.spacing_size() != 2) {
+    return absl::InternalError("the server sent a plane without counts, an origin or spacings");
+  }
+  slice.counts = {response.values().shape(1), response.values().shape(0)};
   status.Update(append_floats(response.values(), slice.counts[0], slice.values));
   status.Update(check_answered(slice.values.size(), slice.counts[0] * slice.counts[1]));
   status.Update(check_answered(response.curves_size(), std::max(request.levels_size(), 1)));
@@ -170,6 +173,8 @@ absl::StatusOr<Slice> Client::slice(v1::SliceRequest request) {
   if (!status.ok()) return status;
   std::copy_n(response.u().begin(), 3, slice.u.begin());
   std::copy_n(response.v().begin(), 3, slice.v.begin());
+  std::copy_n(response.origin().begin(), 3, slice.origin.begin());
+  std::copy_n(response.spacing().begin(), 2, slice.spacing.begin());
   return slice;
 }
 

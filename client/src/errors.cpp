@@ -24,8 +24,11 @@ absl::Status from_grpc(const grpc::Status& status, const std::string& address) {
         return absl::UnavailableError(absl::StrCat("the connection to isofieldd at ", address, " was lost (", detail,
                                                    "); see the daemon's log, then try again"));
       }
-      return absl::UnavailableError(absl::StrCat("no isofieldd answers at ", address, " (", detail,
-                                                 "); start one with: isofieldd --listen ", address));
+      if (absl::StrContains(detail, "Connection refused") || absl::StrContains(detail, "No such file or directory")) {
+        return absl::UnavailableError(absl::StrCat("nothing listens at ", address, "; start isofieldd there"));
+      }
+      return absl::UnavailableError(
+          absl::StrCat("no isofieldd answers at ", address, " (", detail, "); is the address right, and isofieldd up?"));
     case absl::StatusCode::kDeadlineExceeded:
       return absl::DeadlineExceededError(
           absl::StrCat("isofieldd at ", address, " did not finish in time (", detail, "); allow it a longer timeout"));

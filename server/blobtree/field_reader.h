@@ -27,15 +27,34 @@ class FieldReader {
     status_ = absl::InvalidArgumentError(absl::StrCat(path_, ".", field, " = ", value, ": expected ", expected));
   }
 
+  // Of a field that is left out, where the message can tell that.
+  void miss(absl::string_view field, absl::string_view expected) {
+    if (!status_.ok()) return;
+    status_ = absl::InvalidArgumentError(absl::StrCat(path_, ".", field, " is missing: expected ", expected));
+  }
+  // A number that is left out arrives as 0.
+  void refuse_number(absl::string_view field, double value, absl::string_view expected) {
+    if (!status_.ok()) return;
+    if (value != 0) return refuse(field, absl::StrCat(value), expected);
+    status_ = absl::InvalidArgumentError(absl::StrCat(path_, ".", field, " is missing or 0: expected ", expected));
+  }
+
+  // An empty list is one that is left out.
+  void refuse_count(absl::string_view field, int count, absl::string_view expected) {
+    count == 0 ? miss(field, expected) : refuse(field, absl::StrCat("[", count, " numbers]"), expected);
+  }
+
   double number(absl::string_view field, double value, double least, double most, absl::string_view expected) {
-    if (!(value >= least && value <= most)) refuse(field, absl::StrCat(value), expected);
+    if (!(value >= least && value <= most)) refuse_number(field, value, expected);
     return value;
   }
   // `component` is appended to the field's name: ".x".
   double positive(absl::string_view field, double value, absl::string_view component = "") {
     if (!(value >= kMinLength && value <= kMaxCoordinate)) {
-      refuse(absl::StrCat(field, component), absl::StrCat(value),
-             absl::StrCat("a length > 0, within [", kMinLength, ", ", kMaxCoordinate, "]"));
+      const std::string expected = absl::StrCat("a length > 0, within [", kMinLength, ", ", kMaxCoordinate, "]");
+      // A vector's component is there where the vector is.
+      if (component.empty()) return refuse_number(field, value, expected), value;
+      refuse(absl::StrCat(field, component), absl::StrCat(value), expected);
     }
     return value;
   }
@@ -69,7 +88,7 @@ class FieldReader {
   bool has_size(absl::string_view field, const Numbers& numbers, int size, bool may_be_empty) {
     if (numbers.empty() && may_be_empty) return false;
     if (numbers.size() == size) return true;
-    refuse(field, absl::StrCat("[", numbers.size(), " numbers]"), absl::StrCat(size, " numbers"));
+    refuse_count(field, numbers.size(), absl::StrCat(size, " numbers"));
     return false;
   }
 

@@ -111,7 +111,8 @@ void read_custom(const std::string& name, const OperatorTable& custom, Node& nod
     node.op = it->second;
     return;
   }
-  in.refuse("operator", base::quoted(name), "the name of a custom operator that is put before the scene");
+  constexpr char kExpected[] = "the name of a custom operator that is put before the scene";
+  name.empty() ? in.miss("operator", kExpected) : in.refuse("operator", base::quoted(name), kExpected);
 }
 
 std::string kind_names() {
@@ -200,7 +201,7 @@ absl::Status read_node(const v1::Node& message, const OperatorTable& custom, Nod
       read_custom(message.custom().operator_(), custom, node, in);
       break;
     case v1::Node::KIND_NOT_SET:
-      in.refuse("kind", "(absent)", absl::StrCat("one of ", kind_names()));
+      in.miss("kind", absl::StrCat("one of ", kind_names()));
       break;
     default:
       node.kind = NodeKind::kOperator;

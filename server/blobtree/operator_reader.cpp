@@ -31,8 +31,7 @@ std::string at(absl::string_view field, int i) {
 std::vector<double> read_samples(absl::string_view field, const Numbers& numbers, double least, double most,
                                  double unit, absl::string_view expected, FieldReader& in) {
   if (numbers.size() < kLeastSamples || numbers.size() > kMostSamples) {
-    in.refuse(field, absl::StrCat("[", numbers.size(), " numbers]"),
-              absl::StrCat(kLeastSamples, " to ", kMostSamples, " samples"));
+    in.refuse_count(field, numbers.size(), absl::StrCat(kLeastSamples, " to ", kMostSamples, " samples"));
     return {0, 0};
   }
   std::vector<double> samples;
@@ -67,7 +66,7 @@ operators::Opening read_opening(const v1::Opening& m, FieldReader& in) {
   }
   if (m.preset() == v1::Opening::PRESET_UNSPECIFIED && any && !all) {
     for (int i = 0; i < 8; ++i) {
-      if (!stated[i]) in.refuse(kNames[i], "(absent)", "a value, or a preset that supplies it");
+      if (!stated[i]) in.miss(kNames[i], "a value, or a preset that supplies it");
     }
   }
   for (int i = 0; i < 8; ++i) {
@@ -154,11 +153,11 @@ std::shared_ptr<const operators::SampledVolume> read_volume(const v1::SampledOpe
   auto volume = std::make_shared<operators::SampledVolume>();
   const auto n = static_cast<int>(m.size());
   if (m.size() < 2 || m.size() > kMostVolume) {
-    in.refuse("size", absl::StrCat(m.size()), absl::StrCat("samples a side within [2, ", kMostVolume, "]"));
+    in.refuse_number("size", m.size(), absl::StrCat("samples a side within [2, ", kMostVolume, "]"));
     return volume;
   }
   if (m.values_size() != n * n * n) {
-    in.refuse("values", absl::StrCat("[", m.values_size(), " numbers]"), absl::StrCat(n * n * n, ", size^3"));
+    in.refuse_count("values", m.values_size(), absl::StrCat(n * n * n, ", size^3"));
     return volume;
   }
   volume->size = n;
@@ -187,11 +186,11 @@ std::shared_ptr<const operators::SampledVolume> read_volume(const v1::SampledOpe
 
 operators::SampledCurve read_control_points(const v1::FunctionalBlend& m, FieldReader& in) {
   if (m.x_size() < 2 || m.x_size() > kMostControlPoints) {
-    in.refuse("x", absl::StrCat("[", m.x_size(), " numbers]"), absl::StrCat("2 to ", kMostControlPoints, " of them"));
+    in.refuse_count("x", m.x_size(), absl::StrCat("2 to ", kMostControlPoints, " of them"));
     return {};
   }
   if (m.h_size() != m.x_size()) {
-    in.refuse("h", absl::StrCat("[", m.h_size(), " numbers]"), absl::StrCat(m.x_size(), ", one for each x"));
+    in.refuse_count("h", m.h_size(), absl::StrCat(m.x_size(), ", one for each x"));
     return {};
   }
   std::vector<double> x, h;
@@ -243,7 +242,7 @@ void read_terms(const Numbers& ranges, const Numbers& powers, const Numbers& wei
     in.refuse("ranges", absl::StrCat("[", count, " numbers]"), absl::StrCat("at most ", kMaxOperands));
     return;
   }
-  if (ranges.empty()) in.refuse("ranges", "[]", "one range, or one for each child");
+  if (ranges.empty()) in.miss("ranges", "one range, or one for each child");
   const struct {
     const char* name;
     const Numbers& numbers;
@@ -255,7 +254,7 @@ void read_terms(const Numbers& ranges, const Numbers& powers, const Numbers& wei
   }
   for (int i = 0; i < count; ++i) {
     operators::Term t{listed(ranges, i, 1), listed(powers, i, 2), listed(weights, i, 1)};
-    in.positive(at("ranges", i), t.range);
+    in.positive("ranges", t.range, absl::StrCat("[", i, "]"));
     in.number(at("powers", i), t.power, 1.0001, 64, "an exponent within ]1, 64]");
     in.number(at("weights", i), t.weight, 1e-3, 1e3, "a weight within [0.001, 1000]");
     op.terms.push_back(t);
@@ -359,9 +358,9 @@ absl::StatusOr<std::shared_ptr<const Operator>> read_operator(const v1::Operator
     op->samples = read_volume(message.sampled(), in);
   }
   if (!op) {
-    in.refuse("kind", "(absent)",
-              "one of sum, max, min, difference, ricci, gradient, clean, barthe, bernhardt, r_union, pasko, "
-              "superelliptic, functional, bt2, btk, sampled");
+    in.miss("kind",
+            "one of sum, max, min, difference, ricci, gradient, clean, barthe, bernhardt, r_union, pasko, "
+            "superelliptic, functional, bt2, btk, sampled");
   } else {
     // Operands come with the nodes that use the operator.
     const auto* kind =

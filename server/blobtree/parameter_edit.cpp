@@ -9,10 +9,12 @@
 #include <set>
 
 #include "base/quoted.h"
+#include "blobtree/nearest_name.h"
 
 namespace isofield::blobtree {
 namespace {
 
+using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
@@ -21,27 +23,39 @@ absl::Status refuse(const ParameterEdit& edit, const std::string& why) {
                                                  base::printable(edit.field, base::kQuotedCharacters), ": ", why));
 }
 
-// The message of the node's kind: what is set in the oneof.
-Message* kind_of(v1::Node& node) {
-  const auto* oneof = v1::Node::descriptor()->FindOneofByName("kind");
-  const FieldDescriptor* field = node.GetReflection()->GetOneofFieldDescriptor(node, oneof);
-  return field ? node.GetReflection()->MutableMessage(&node, field) : nullptr;
+// The node's kind: what is set in the oneof; nullptr: nothing.
+const FieldDescriptor* kind_of(const v1::Node& node) {
+  return node.GetReflection()->GetOneofFieldDescriptor(node, v1::Node::descriptor()->FindOneofByName("kind"));
 }
 
-std::string numeric_fields(const Message& message) {
+// By its name in scene.proto, or in JSON: "radius_a" or "radiusA". nullptr: there is none.
+const FieldDescriptor* field_of(const Descriptor& type, const std::string& name) {
+  const FieldDescriptor* field = type.FindFieldByName(name);
+  for (int i = 0; field == nullptr && i < type.field_count(); ++i) {
+    if (type.field(i)->json_name() == name) field = type.field(i);
+  }
+  return field;
+}
+
+// The numbers of a kind of node, those in its messages as "opening.alpha0".
+std::vector<std::string> numeric_fields(const Descriptor& type) {
   std::vector<std::string> names;
-  for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
-    const FieldDescriptor* field = message.GetDescriptor()->field(i);
+  for (int i = 0; i < type.field_count(); ++i) {
+    const FieldDescriptor* field = type.field(i);
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) names.push_back(field->name());
     if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) continue;
-    for (int j = 0; j < field->message_type()->field_count(); ++j) {
-      const FieldDescriptor* inner = field->message_type()->field(j);
-      if (inner->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) {
-        names.push_back(absl::StrCat(field->name(), ".", inner->name()));
-      }
+    for (const std::string& inner : numeric_fields(*field->message_type())) {
+      names.push_back(absl::StrCat(field->name(), ".", inner));
     }
   }
-  return names.empty() ? "this node has no numbers" : absl::StrCat("expected one of ", absl::StrJoin(names, ", "));
+  return names;
+}
+
+absl::Status refuse_field(const ParameterEdit& edit, const FieldDescriptor& kind) {
+  const std::vector<std::string> names = numeric_fields(*kind.message_type());
+  if (names.empty()) return refuse(edit, absl::StrCat("a node of kind ", kind.name(), " has no numbers"));
+  return refuse(edit, absl::StrCat("a node of kind ", kind.name(), " has no such numeric field",
+                                   did_you_mean(edit.field, names), "; expected one of ", absl::StrJoin(names, ", ")));
 }
 
 // The element that ".1" or ".y" names; -1: none.
@@ -55,23 +69,23 @@ int element_of(const std::string& name, int size) {
 }
 
 absl::Status apply(const ParameterEdit& edit, v1::Node& node) {
-  Message* message = kind_of(node);
+  const FieldDescriptor* const kind = kind_of(node);
+  if (!kind) return refuse(edit, "the node has no kind");
+  Message* message = node.GetReflection()->MutableMessage(&node, kind);
   const std::vector<std::string> path = absl::StrSplit(edit.field, '.');
-  if (!message) return refuse(edit, "the node has no kind");
   std::size_t at = 0;
-  const FieldDescriptor* field = message->GetDescriptor()->FindFieldByName(path[0]);
+  const FieldDescriptor* field = field_of(*kind->message_type(), path[0]);
   if (field && field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && path.size() > 1) {
-    const std::string fields = numeric_fields(*message);
+    const FieldDescriptor* inner = field_of(*field->message_type(), path[at = 1]);
+    if (!inner || inner->cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE) return refuse_field(edit, *kind);
     message = message->GetReflection()->MutableMessage(message, field);
-    field = message->GetDescriptor()->FindFieldByName(path[at = 1]);
-    if (!field) return refuse(edit, absl::StrCat("no such field; ", fields));
+    field = inner;
   }
-  if (!field || field->cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE) {
-    return refuse(edit, absl::StrCat("no such numeric field; ", numeric_fields(*message)));
+  if (!field || field->cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE || path.size() > at + 2) {
+    return refuse_field(edit, *kind);
   }
   const auto* reflection = message->GetReflection();
   const bool has_element = path.size() == at + 2;
-  if (path.size() > at + 2) return refuse(edit, absl::StrCat("no such field; ", numeric_fields(*message)));
   if (!field->is_repeated()) {
     if (has_element || edit.values.size() != 1) return refuse(edit, "expected one number for one field");
     reflection->SetDouble(message, field, edit.values[0]);
@@ -108,7 +122,10 @@ absl::StatusOr<std::vector<std::uint32_t>> apply_edits(const std::vector<Paramet
       index = it->second;
     }
     if (index < 0 || index >= edited.nodes_size()) {
-      return refuse(edit, absl::StrCat("no such node; expected a node's name, or #0 to #", edited.nodes_size() - 1));
+      std::vector<std::string> all;
+      for (const v1::Node& node : edited.nodes()) all.push_back(node.name());
+      return refuse(edit, absl::StrCat("no such node; expected a node's name, or #0 to #", edited.nodes_size() - 1,
+                                       did_you_mean(edit.node, all)));
     }
     if (absl::Status s = apply(edit, *edited.mutable_nodes(index)); !s.ok()) return s;
     changed.insert(static_cast<std::uint32_t>(index));

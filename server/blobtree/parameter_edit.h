@@ -13,7 +13,7 @@ namespace isofield::blobtree {
 
 struct ParameterEdit {
   std::string node;   // a name, or "#i"
-  std::string field;  // "radius", "center", "center.y", "center.1", "opening.alpha0"
+  std::string field;  // "radius", "radius_a" or "radiusA", "center", "center.y", "center.1", "opening.alpha0"
   std::vector<double> values;
 };
 

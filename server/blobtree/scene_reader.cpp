@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/quoted.h"
+#include "blobtree/nearest_name.h"
 #include "blobtree/node_reader.h"
 #include "blobtree/operator_reader.h"
 #include "blobtree/profile_count.h"
@@ -38,6 +39,15 @@ class References {
           absl::StrCat(path, ".name = ", base::quoted(name), ": already the name of nodes[", place->second, "]"));
     }
     return absl::OkStatus();
+  }
+
+  // That `reference`, of which `what` is "child" or "root", is to no node.
+  absl::Status refuse(absl::string_view what, const std::string& reference, std::size_t node_count) const {
+    std::vector<std::string> names;
+    for (const auto& [name, index] : names_) names.push_back(name);
+    std::sort(names.begin(), names.end());
+    return absl::InvalidArgumentError(absl::StrCat(what, " ", base::quoted(reference), " is no node: expected a node's name, or #0 to #",
+                                                   node_count - 1, did_you_mean(reference, names)));
   }
 
   // Nothing when the reference is to no node.
@@ -105,7 +115,9 @@ absl::Status check_operand_count(const Node& node) {
   } else if (wanted.most <= kMaxOperands) {
     expected = absl::StrCat(wanted.least, " to ", wanted.most, " children");
   }
-  return absl::InvalidArgumentError(absl::StrCat(node.path, ".children = [", count, " children]: expected ", expected));
+  if (count == 0) return absl::InvalidArgumentError(absl::StrCat(node.path, ".children is missing: expected ", expected));
+  return absl::InvalidArgumentError(
+      absl::StrCat(node.path, ".children = [", count, count == 1 ? " child" : " children", "]: expected ", expected));
 }
 
 // Children before parents: each operator takes as many children as it can, all of one law.
@@ -209,7 +221,7 @@ absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
 
 absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits, const OperatorTable& custom) {
   const auto count = static_cast<std::size_t>(message.nodes_size());
-  if (count == 0) return absl::InvalidArgumentError("nodes = []: expected at least 1 node");
+  if (count == 0) return absl::InvalidArgumentError("nodes is missing: expected at least 1 node");
   if (count > limits.max_nodes) {
     return absl::InvalidArgumentError(absl::StrCat("nodes: ", count, " nodes, expected at most ", limits.max_nodes));
   }
@@ -229,19 +241,18 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
   for (std::size_t i = 0; i < count; ++i) {
     for (const std::string* reference : child_references(message.nodes(i))) {
       const std::optional<std::uint32_t> child = references.find(*reference, count);
-      if (!child) {
-        return absl::InvalidArgumentError(absl::StrCat(scene.nodes[i].path, ": child ", base::quoted(*reference),
-                                                       " is no node: expected a node's name, or #0 to #", count - 1));
+      const bool is_single = scene.nodes[i].kind != NodeKind::kOperator;
+      if (!child && is_single && reference->empty()) {
+        return absl::InvalidArgumentError(
+            absl::StrCat(scene.nodes[i].path, ".child is missing: expected a node's name, or #0 to #", count - 1));
       }
+      if (!child) return references.refuse(absl::StrCat(scene.nodes[i].path, ": child"), *reference, count);
       scene.nodes[i].children.push_back(*child);
     }
   }
   const std::optional<std::uint32_t> root =
       references.find(message.root().empty() ? absl::StrCat("#", count - 1) : message.root(), count);
-  if (!root) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("root = ", base::quoted(message.root()), " is no node: expected a node's name, or #0 to #", count - 1));
-  }
+  if (!root) return references.refuse("root =", message.root(), count);
   scene.root = *root;
   if (absl::Status s = sort_nodes(scene); !s.ok()) return s;
   if (absl::Status s = check_instances(scene, limits); !s.ok()) return s;

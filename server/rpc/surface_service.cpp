@@ -10,6 +10,7 @@
 #include "engine/status_macros.h"
 #include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
+#include "rpc/slice_plane.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"
 
@@ -88,52 +89,7 @@ void set_names(const v1::Scene& scene, std::vector<std::uint32_t>& nodes, v1::Ca
   }
 }
 
-absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const Limits& limits) {
-  engine::Plane plane;
-  ISOFIELD_ASSIGN_OR_RETURN(plane.origin, read_vector("origin", request.origin()));
-  ISOFIELD_ASSIGN_OR_RETURN(const blobtree::dvec3 u, read_vector("u", request.u()));
-  ISOFIELD_ASSIGN_OR_RETURN(const blobtree::dvec3 v, read_vector("v", request.v()));
-  for (const auto& [name, axis] : {std::pair{"u", u}, std::pair{"v", v}}) {
-    if (!(length(axis) >= blobtree::kMinLength)) {
-      return absl::InvalidArgumentError(absl::StrCat(name, " = (", axis.x, ", ", axis.y, ", ", axis.z,
-                                                     "): expected a length of at least ", blobtree::kMinLength));
-    }
-  }
-  plane.u = u * (1 / length(u));
-  const blobtree::dvec3 unit = v * (1 / length(v));
-  const blobtree::dvec3 rest = unit - plane.u * dot(plane.u, unit);
-  if (!(length(rest) >= 1e-6)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("v = (", v.x, ", ", v.y, ", ", v.z, "): expected a direction that is not parallel to u"));
-  }
-  plane.v = rest * (1 / length(rest));
-  const Numbers& spacing = request.spacing();
-  if (spacing.size() != 1 && spacing.size() != 2) {
-    return absl::InvalidArgumentError(absl::StrCat("spacing holds ", spacing.size(), " numbers: expected 1 or 2"));
-  }
-  if (request.counts_size() != 2) {
-    return absl::InvalidArgumentError(absl::StrCat("counts holds ", request.counts_size(), " numbers: expected 2"));
-  }
-  unsigned __int128 points = 1;
-  for (int i = 0; i < 2; ++i) {
-    ISOFIELD_ASSIGN_OR_RETURN(plane.spacing[i], read_length("spacing", spacing[i % spacing.size()]));
-    const std::uint64_t count = request.counts(i);
-    if (count < 1)
-      return absl::InvalidArgumentError(absl::StrCat("counts[", i, "] = 0: expected a count of at least 1"));
-    points *= count;
-    plane.counts[i] = static_cast<std::uint32_t>(count);
-  }
-  if (points > limits.max_points_per_message) {
-    return absl::ResourceExhaustedError(absl::StrCat("counts = [", request.counts(0), ", ", request.counts(1),
-                                                     "]: at most ", limits.max_points_per_message,
-                                                     " points are admitted; ask for parts of it"));
-  }
-  for (int i = 0; i < 2; ++i) {
-    if (!(plane.counts[i] * plane.spacing[i] <= blobtree::kMaxCoordinate)) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          "spacing = ", plane.spacing[i], ": expected a plane of a length of at most ", blobtree::kMaxCoordinate));
-    }
-  }
+absl::Status check_levels(const v1::SliceRequest& request) {
   if (request.levels_size() > kMaxLevels) {
     return absl::InvalidArgumentError(
         absl::StrCat("levels holds ", request.levels_size(), " numbers: expected at most ", kMaxLevels));
@@ -144,7 +100,7 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
           absl::StrCat("levels[", i, "] = ", request.levels(i), ": expected a finite float32"));
     }
   }
-  return plane;
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -233,7 +189,9 @@ absl::Status SurfaceService::contains(const grpc::ServerContext& context, const 
 absl::Status SurfaceService::slice(const grpc::ServerContext& context, const v1::SliceRequest& request,
                                    v1::SliceResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::Plane plane, read_plane(request, limits_));
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::Plane plane,
+                            read_plane(request, leased.scene->tape(), limits_.max_points_per_message));
+  ISOFIELD_RETURN_IF_ERROR(check_levels(request));
   const AnswerLimit limit(request.max_answer_bytes());
   ISOFIELD_RETURN_IF_ERROR(
       limit.admit(std::uint64_t{plane.counts[0]} * plane.counts[1] * sizeof(float), kSmallerPlane));
@@ -255,6 +213,8 @@ absl::Status SurfaceService::slice(const grpc::ServerContext& context, const v1:
   }
   set_vector(plane.u, *response.mutable_u());
   set_vector(plane.v, *response.mutable_v());
+  set_vector(plane.origin, *response.mutable_origin());
+  for (const double spacing : plane.spacing) response.add_spacing(spacing);
   return limit.admit(response.ByteSizeLong(), kSmallerPlane);
 }
 

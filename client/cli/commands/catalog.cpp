@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "commands/checks.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/scene_argument.h"
@@ -147,20 +148,23 @@ void add_catalog_commands(CLI::App& app, Context& context) {
   command->callback([&context] { context.outcome = list(context); });
 
   command = app.add_subcommand("show", "Print a scene of the server as JSON");
-  command->add_option("NAME", arguments->name)->required();
+  command->add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it")->required();
   command->callback([&context, arguments] { context.outcome = show(context, arguments->name); });
 
   command = app.add_subcommand("rm", "Delete a scene of the server");
-  command->add_option("NAME", arguments->name)->required();
+  command->add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it")->required();
   command->callback([&context, arguments] { context.outcome = remove(context, arguments->name); });
 
   command = app.add_subcommand("edit", "Change numbers of a scene on the server; all of them, or none");
-  command->add_option("NAME", arguments->name)->required();
+  command->add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it")->required();
   command
       ->add_option("EDITS", arguments->edits,
-                   "NODE.FIELD=NUMBER[,NUMBER..] ..., such as arm.radius=2 '#0.center=1,0,0'")
+                   "NODE.FIELD=NUMBER[,NUMBER..] ..., such as arm.radius=2 '#0.center=1,0,0' bar.radiusA=0.1 "
+                   "all.opening.alpha0=10. A node is its name or #i, its place in the scene from 0; a field's name is the "
+                   "one of scene.proto or of JSON")
       ->required();
-  command->add_option("--expect-version", arguments->version, "Only when the scene has this version");
+  command->add_option("--expect-version", arguments->version, "Only when the scene has this version (default: 0, any)")
+      ->check(whole(0, UINT64_MAX));
   command->callback([&context, arguments] {
     context.outcome = edit(context, arguments->name, arguments->edits, arguments->version);
   });

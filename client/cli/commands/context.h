@@ -2,10 +2,7 @@
 
 #include <absl/status/status.h>
 #include <absl/status/statusor.h>
-#include <absl/strings/numbers.h>
-#include <absl/strings/str_cat.h>
 
-#include <cmath>
 #include <string>
 
 #include "isofield/client.h"
@@ -28,19 +25,13 @@ struct Context {
   absl::StatusOr<Client> connect(bool shared_memory = false) const;
 };
 
-// What an option above 0 is checked with; CLI11's own check passes NaN, and its messages print the greatest double.
-inline std::string check_positive(const std::string& text) {
-  double value = 0;
-  const bool is_good = absl::SimpleAtod(text, &value) && value > 0 && std::isfinite(value);
-  return is_good ? "" : absl::StrCat("expected a finite number above 0, not ", text.substr(0, 40));
-}
-
 // Each adds its commands to the command line, and runs the chosen one when it is parsed.
 void add_catalog_commands(CLI::App& app, Context& context);  // put, ls, show, rm, edit
 void add_import_command(CLI::App& app, Context& context);
 void add_eval_command(CLI::App& app, Context& context);
 void add_mesh_command(CLI::App& app, Context& context);
 void add_render_command(CLI::App& app, Context& context);
+void add_watch_command(CLI::App& app, Context& context);
 void add_measure_command(CLI::App& app, Context& context);
 void add_ray_command(CLI::App& app, Context& context);
 void add_project_command(CLI::App& app, Context& context);

@@ -64,11 +64,7 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
   if (context.json) {
-    JsonObject()
-        .set("file", arguments.output)
-        .set("points", static_cast<double>(points))
-        .set("notes", (*reader)->notes())
-        .print();
+    JsonObject().set("file", arguments.output).set("points", points).set("notes", (*reader)->notes()).print();
   }
   return absl::OkStatus();
 }

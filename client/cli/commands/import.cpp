@@ -34,8 +34,11 @@ absl::Status import(const Context& context, const std::string& path, const std::
   absl::Status status = (*file)->write(*text);
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
-  if (context.json && output != "-" && loaded->report) {
-    JsonObject().set("file", output).set("report", to_json(*loaded->report)).print();
+  if (context.json && output != "-") {
+    JsonObject written;
+    written.set("file", output);
+    if (loaded->report) written.set("report", to_json(*loaded->report));
+    written.print();
   }
   return absl::OkStatus();
 }

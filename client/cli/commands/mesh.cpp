@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 
+#include "commands/checks.h"
 #include "commands/mesh_flags.h"
 #include "commands/scene_argument.h"
 #include "exit_codes.h"
@@ -64,8 +65,10 @@ absl::Status mesh(const Context& context, const Arguments& arguments) {
     return usage_error(absl::StrCat("--units ", arguments.units, ": expected ", kUnitNames));
   }
   if (auto status = OutputFile::check(output); !status.ok()) return file_error(status);
+  auto client = context.connect();
+  if (!client.ok()) return client.status();
   double seconds = 0;
-  const auto mesh = flags.request(context, seconds);
+  const auto mesh = flags.request(context, *client, seconds);
   if (!mesh.ok()) return mesh.status();
   std::vector<std::string> warnings = mesh_warnings(mesh->summary, flags.cells_by());
   const auto unit = file_unit(arguments, *format, mesh->summary.unit(), warnings);
@@ -86,7 +89,7 @@ absl::Status mesh(const Context& context, const Arguments& arguments) {
   if (context.json) {
     JsonObject()
         .set("file", output)
-        .set("bytes", static_cast<double>(bytes))
+        .set("bytes", bytes)
         .set("request_seconds", seconds)
         .set("write_seconds", write_seconds)
         .set("scale", unit->scale)
@@ -119,7 +122,7 @@ void add_mesh_command(CLI::App& app, Context& context) {
       ->add_option("--scale", arguments->scale,
                    "Factor from model units to the file's coordinates, whatever the scene's unit (default: 1; .glb: "
                    "metres in the scene's unit)")
-      ->check(CLI::Validator(check_positive, "above 0"))
+      ->check(positive())
       ->excludes(units);
   command->callback([&context, arguments] { context.outcome = mesh(context, *arguments); });
 }

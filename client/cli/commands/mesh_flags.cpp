@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 
+#include "commands/checks.h"
 #include "commands/scene_argument.h"
 #include "progress_line.h"
 
@@ -18,24 +19,28 @@ void MeshFlags::add_to(CLI::App& command) {
       command
           .add_option("--cell", cell,
                       "Edge length of a cell, in model units (default: chosen by the server after the thinnest part)")
-          ->check(CLI::Validator(check_positive, "above 0"));
+          ->check(positive());
   command.add_option("--resolution", resolution, "Cells along the longest edge of the bounds")
-      ->check(CLI::Range(1, 1048576))
+      ->check(whole(1, 1048576))
       ->excludes(cell_option);
-  command.add_option("--bounds", bounds, "x0,y0,z0,x1,y1,z1 in model units (default: all of the scene)")
+  command
+      .add_option("--bounds", bounds,
+                  "x0,y0,z0,x1,y1,z1: the box to mesh, in model units (default: all of the scene)")
+      ->check(number())
       ->delimiter(',')
       ->expected(6);
   command.add_option("--iso", iso,
                      "Iso value of the surface: within ]0, 1[ of a positive field (default: 0.5), any of a signed one "
-                     "(default: 0)");
+                     "(default: 0)")
+      ->check(number());
   command
       .add_option("--tolerance", tolerance,
                   "How far off the surface vertices may be left, in cells, within [1e-5, 0.1] (default: 1e-3)")
-      ->check(CLI::Range(1e-5, 0.1));
+      ->check(within(1e-5, 0.1));
   command
       .add_option("--simplify", simplify,
                   "Fewer triangles, within this distance of the mesh, in model units (default: all of them)")
-      ->check(CLI::Validator(check_positive, "above 0"));
+      ->check(positive());
   command.add_flag("--largest", largest_body, "Keep only the body that encloses most, with its voids");
   command.add_flag("--fill-voids", fill_voids, "Leave out voids, and what floats inside of them");
   import.add_to(command);
@@ -63,14 +68,12 @@ absl::StatusOr<v1::MeshRequest> MeshFlags::message() const {
   return request;
 }
 
-absl::StatusOr<Mesh> MeshFlags::request(const Context& context, double& seconds) const {
+absl::StatusOr<Mesh> MeshFlags::request(const Context& context, Client& client, double& seconds) const {
   const auto request = message();
   if (!request.ok()) return request.status();
-  auto client = context.connect();
-  if (!client.ok()) return client.status();
   ProgressLine progress(!context.json);
   const auto start = std::chrono::steady_clock::now();
-  auto mesh = client->mesh(*request, [&](const v1::MeshProgress& at) {
+  auto mesh = client.mesh(*request, [&](const v1::MeshProgress& at) {
     const char* const stage = at.stage() == v1::MeshProgress::COMPILING_KERNELS ? "compiling kernels" : "meshing";
     progress.show(stage, absl::StrFormat("%3.0f %%", 100 * at.fraction()));
     return true;

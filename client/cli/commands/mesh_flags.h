@@ -26,7 +26,7 @@ struct MeshFlags {
   // What they ask for, without asking.
   absl::StatusOr<v1::MeshRequest> message() const;
   // With a progress line on a terminal. `seconds`: from the request to the last byte.
-  absl::StatusOr<Mesh> request(const Context& context, double& seconds) const;
+  absl::StatusOr<Mesh> request(const Context& context, Client& client, double& seconds) const;
   // Adds the flag's name where the server speaks of bounds, a cell size or a resolution.
   absl::Status explain(const absl::Status& refusal) const;
   CellsBy cells_by() const;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "commands/checks.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/scene_argument.h"
@@ -65,11 +66,11 @@ absl::Status list(const Context& context) {
 }
 
 // Of the kind that an operator is.
-std::vector<std::string> list_parameters(const v1::Operator& message) {
+std::vector<Parameter> parameters_of(const v1::Operator& message) {
   const auto* kinds = v1::Operator::descriptor()->FindOneofByName("kind");
   const auto* kind = message.GetReflection()->GetOneofFieldDescriptor(message, kinds);
   if (!kind) return {};
-  return parameter_descriptions(message.GetReflection()->GetMessage(message, kind));
+  return describe_parameters(message.GetReflection()->GetMessage(message, kind));
 }
 
 absl::Status show(const Context& context, const std::string& name) {
@@ -77,19 +78,26 @@ absl::Status show(const Context& context, const std::string& name) {
   if (!client.ok()) return client.status();
   const auto response = client->get_operator(name);
   if (!response.ok()) return response.status();
+  const std::vector<Parameter> parameters = parameters_of(response->operator_());
   if (context.json) {
-    print_json(*response);
+    std::vector<JsonObject> list;
+    for (const auto& [parameter, range] : parameters) {
+      JsonObject& one = list.emplace_back();
+      one.set("name", parameter).set("accepts", range.accepts).set("required", range.otherwise.empty());
+      if (!range.otherwise.empty()) one.set("default", range.otherwise);
+    }
+    JsonObject(*response).set("parameters", list).print();
     return absl::OkStatus();
   }
   const auto text = format_operator_json(response->operator_());
   if (!text.ok()) return text.status();
   std::fwrite(text->data(), 1, text->size(), stdout);
-  // A built-in operator has no field set: what there is to set. Not on the standard output, which is a file to be put.
-  if (response->summary().version() == 0) {
-    std::fflush(stdout);
-    const std::vector<std::string> lines = list_parameters(response->operator_());
-    absl::FPrintF(stderr, "%s\n", lines.empty() ? "no parameters" : "parameters:");
-    for (const std::string& line : lines) absl::FPrintF(stderr, "  %s\n", line);
+  // What there is to set is not on the standard output, which is a file to be put.
+  std::fflush(stdout);
+  absl::FPrintF(stderr, "%s\n", parameters.empty() ? "It has no parameters." : "Parameters of this kind of operator:");
+  for (const auto& [parameter, range] : parameters) {
+    absl::FPrintF(stderr, "  %s: %s; %s\n", parameter, range.accepts,
+                  range.otherwise.empty() ? "it must be stated" : "default: " + range.otherwise);
   }
   return absl::OkStatus();
 }
@@ -141,8 +149,8 @@ void add_operator_commands(CLI::App& app, Context& context) {
   CLI::App* command = all->add_subcommand("ls", "List the built-in operators and the server's custom ones");
   command->callback([&context] { context.outcome = list(context); });
 
-  command = all->add_subcommand("show", "Print an operator as JSON, and the parameters that a built-in one takes");
-  command->add_option("NAME", arguments->name)->required();
+  command = all->add_subcommand("show", "Print an operator as JSON, and what its parameters accept and are by default (on the standard error)");
+  command->add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it")->required();
   command->callback([&context, arguments] { context.outcome = show(context, arguments->name); });
 
   command = all->add_subcommand("put", "Store a custom operator on the server, replacing one of that name");
@@ -151,20 +159,21 @@ void add_operator_commands(CLI::App& app, Context& context) {
   command->callback([&context, arguments] { context.outcome = put(context, arguments->file, arguments->name); });
 
   command = all->add_subcommand("rm", "Delete a custom operator of the server; scenes keep it");
-  command->add_option("NAME", arguments->name)->required();
+  command->add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it")->required();
   command->callback([&context, arguments] { context.outcome = remove(context, arguments->name); });
 
   add_operator_eval_command(*all, context);
   add_operator_plot_command(*all, context);
 
   const auto picked = std::make_shared<PickArguments>();
-  command = all->add_subcommand("pick", "Tell the opening angle at which the blend of two fields begins at a point");
+  command = all->add_subcommand("pick", "Tell the opening angle at which the blend of a node's two children would begin at a point of the first one's surface");
   command->add_option("SCENE", picked->scene, "A file, or else a name on the server")->required();
   command->add_option("NODE", picked->node, "A node of two children, by name or #i")->required();
-  command->add_option("X", picked->point[0], "A point of the first child's surface, in the node's own frame")
+  command->add_option("X", picked->point[0], "A point X Y Z of the first child's surface, in the node's own frame")
+      ->check(number())
       ->required();
-  command->add_option("Y", picked->point[1])->required();
-  command->add_option("Z", picked->point[2])->required();
+  command->add_option("Y", picked->point[1], "Its second coordinate")->check(number())->required();
+  command->add_option("Z", picked->point[2], "Its third coordinate")->check(number())->required();
   command->callback([&context, picked] { context.outcome = pick(context, *picked); });
 }
 

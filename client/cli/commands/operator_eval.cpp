@@ -85,7 +85,7 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
     if (numbers.size() < Client::kChunkPoints * columns->size()) break;
   }
   if (auto status = (*file)->commit(); !status.ok()) return file_error(status);
-  if (context.json) JsonObject().set("file", arguments.output).set("rows", static_cast<double>(rows)).print();
+  if (context.json) JsonObject().set("file", arguments.output).set("rows", rows).print();
   return absl::OkStatus();
 }
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <numbers>
 
+#include "commands/checks.h"
 #include "commands/operator_argument.h"
 #include "exit_codes.h"
 #include "json_output.h"
@@ -286,16 +287,16 @@ void add_operator_plot_command(CLI::App& app, Context& context) {
   auto* thetas = command->add_option("--theta", arguments->thetas, "Opening angles in degrees, a panel each")
                      ->delimiter(',')
                      ->allow_extra_args(false)
-                     ->check(CLI::Range(0.0, 45.0))
+                     ->check(within(0.0, 45.0))
                      ->expected(1, 16);
   command->add_option("--alpha", arguments->alphas, "Instead: angles between the gradients in degrees, a panel each")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Range(0.0, 180.0))
+      ->check(within(0.0, 180.0))
       ->expected(1, 16)
       ->excludes(thetas);
   command->add_option("--size", arguments->size, "Side of a panel in pixels")
-      ->check(CLI::Range(64, 2048))
+      ->check(whole(64, 2048))
       ->capture_default_str();
   command->callback([&context, arguments] { context.outcome = plot(context, *arguments); });
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "commands/checks.h"
 #include "commands/scene_argument.h"
 #include "exit_codes.h"
 #include "json_output.h"
@@ -19,7 +20,8 @@ void PointTableArguments::add_to(CLI::App& command, const std::string& points_na
       ->required();
   command.add_option("--iso", iso,
                      "Iso value of the surface: within ]0, 1[ of a positive field (default: 0.5), any of a signed one "
-                     "(default: 0)");
+                     "(default: 0)")
+      ->check(number());
   command
       .add_option(
           "-o,--output", output,
@@ -71,11 +73,7 @@ absl::Status answer_points(const Context& context, const PointTableArguments& ar
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
   if (context.json) {
-    JsonObject()
-        .set("file", arguments.output)
-        .set("rows", static_cast<double>(table.rows()))
-        .set("notes", notes)
-        .print();
+    JsonObject().set("file", arguments.output).set("rows", table.rows()).set("notes", notes).print();
   }
   return absl::OkStatus();
 }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "commands/checks.h"
 #include "commands/point_table.h"
 #include "exit_codes.h"
 
@@ -66,21 +67,24 @@ void add_ray_command(CLI::App& app, Context& context) {
       "ray", "Find where rays first meet the surface: distance (inf: nowhere),x,y,z,nx,ny,nz,inside,node");
   arguments->add_to(*command, "--origins");
   auto* each = command->add_option("--directions", arguments->directions,
-                                   "A direction for each origin, of any length: columns dx, dy, dz, or the normals nx, ny, nz, or x, y, z. A file "
-                                   "that has the origins too names them ox, oy, oz, or has six columns without names");
-  command->add_option("--direction", arguments->direction, "x,y,z: one direction for all")
+                                   "A direction for each origin, of any length but 0: columns dx, dy, dz, or the normals "
+                                   "nx, ny, nz, or x, y, z. A file that has the origins too names them ox, oy, oz, or has "
+                                   "six columns without names");
+  command->add_option("--direction", arguments->direction, "x,y,z: one direction for all rays, of any length but 0")
+      ->check(number())
       ->delimiter(',')
       ->expected(3)
       ->excludes(each);
-  command->add_option("--max-distance", arguments->max_distance, "Where the rays end, in model units")
-      ->check(CLI::Validator(check_positive, "above 0"));
+  command->add_option("--max-distance", arguments->max_distance, "Where the rays end, in model units from their origins (default: nowhere)")
+      ->check(positive());
   command
       ->add_option("--cell", arguments->cell,
                    "What is thinner than this along a ray may be missed, in model units (default: chosen by the "
                    "server after the thinnest part)")
-      ->check(CLI::Validator(check_positive, "above 0"));
+      ->check(positive());
   command
       ->add_option("--bounds", arguments->bounds, "x0,y0,z0,x1,y1,z1 in model units: where the surface is looked for")
+      ->check(number())
       ->delimiter(',')
       ->expected(6);
   command->callback([&context, arguments] {

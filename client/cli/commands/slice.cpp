@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "commands/checks.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/scene_argument.h"
@@ -19,7 +20,7 @@ namespace {
 
 struct SliceArguments {
   std::string scene, output;
-  std::vector<double> origin, u{1, 0, 0}, v{0, 1, 0}, spacing, levels;
+  std::vector<double> origin, u, v, spacing, levels;
   std::vector<std::uint64_t> counts;
   int size = 800;
   ImportFlags flags;
@@ -42,7 +43,7 @@ absl::StatusOr<Slice> request_slice(const Context& context, const SliceArguments
 }
 
 absl::Status write_slice(const Slice& slice, const SliceArguments& arguments, OutputFile& file) {
-  const std::array<double, 2> spacing{arguments.spacing.front(), arguments.spacing.back()};
+  const std::array<double, 2>& spacing = slice.spacing;
   if (absl::EndsWithIgnoreCase(arguments.output, ".png")) {
     return write_png(draw(slice, spacing, stem(arguments.scene), arguments.size), file);
   }
@@ -77,7 +78,16 @@ absl::Status slice_scene(const Context& context, const SliceArguments& arguments
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
   if (context.json) {
-    JsonObject().set("file", arguments.output).set("points", static_cast<double>(slice->values.size())).print();
+    const auto list = [](const auto& numbers) { return std::vector<double>(numbers.begin(), numbers.end()); };
+    JsonObject()
+        .set("file", arguments.output)
+        .set("points", slice->values.size())
+        .set("origin", list(slice->origin))
+        .set("u", list(slice->u))
+        .set("v", list(slice->v))
+        .set("spacing", list(slice->spacing))
+        .set("counts", list(slice->counts))
+        .print();
   }
   return absl::OkStatus();
 }
@@ -86,35 +96,52 @@ absl::Status slice_scene(const Context& context, const SliceArguments& arguments
 
 void add_slice_command(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<SliceArguments>();
-  CLI::App* command = app.add_subcommand("slice", "Evaluate the field on a part of a plane, and draw it");
+  CLI::App* command = app.add_subcommand(
+      "slice",
+      "Evaluate the field on a part of a plane, and draw it. By default that is the plane of normal z through the middle of "
+      "the box that holds the field's support, over the whole box");
   command->add_option("SCENE", arguments->scene, "A file, or else a name on the server")->required();
-  command->add_option("--origin", arguments->origin, "x,y,z: the first sample, lower left in a picture")
-      ->delimiter(',')
-      ->expected(3)
-      ->required();
-  command->add_option("--u", arguments->u, "x,y,z: to the right in a picture (default: 1,0,0)")
-      ->delimiter(',')
-      ->expected(3);
-  command->add_option("--v", arguments->v, "x,y,z: upwards (default: 0,1,0); made at right angles to u")
+  command
+      ->add_option("--origin", arguments->origin,
+                   "x,y,z in model units: the first sample, lower left in a picture (default: so that the middle of the "
+                   "samples is the middle of the box)")
+      ->check(number())
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--spacing", arguments->spacing, "Model units between samples, for both axes or each")
+  command->add_option("--u", arguments->u, "x,y,z: the direction to the right in a picture (default: 1,0,0)")
+      ->check(number())
       ->delimiter(',')
-      ->expected(1, 2)
-      ->required();
-  command->add_option("--counts", arguments->counts, "Samples along u,v")->delimiter(',')->expected(2)->required();
+      ->expected(3);
+  command
+      ->add_option("--v", arguments->v, "x,y,z: the direction upwards (default: 0,1,0); made at right angles to u")
+      ->check(number())
+      ->delimiter(',')
+      ->expected(3);
+  command
+      ->add_option("--spacing", arguments->spacing,
+                   "Model units between samples, for both axes or each (default: so that the samples span the box)")
+      ->check(positive())
+      ->delimiter(',')
+      ->expected(1, 2);
+  command
+      ->add_option("--counts", arguments->counts,
+                   "Samples along u,v (default: as many as span the box; without --spacing 512 along the longer axis)")
+      ->check(whole(1, std::uint64_t{1} << 32))
+      ->delimiter(',')
+      ->expected(2);
   command
       ->add_option("--levels", arguments->levels,
                    "Values whose curves a picture shows, the first one heavily (default: the surface's)")
+      ->check(number())
       ->delimiter(',');
   command
       ->add_option(
           "-o,--output", arguments->output,
           "Picture (.png), NumPy array (counts[1], counts[0]) (.npy), or u,v,value as text (.csv) or an object "
-          "of arrays (.json); - is text on the standard output")
+          "of arrays (.json), u and v from the first sample; - is text on the standard output")
       ->required();
   command->add_option("--size", arguments->size, "Pixels of a picture's longer side")
-      ->check(CLI::Range(64, 8192))
+      ->check(whole(64, 8192))
       ->capture_default_str();
   arguments->flags.add_to(*command);
   command->callback([&context, arguments] { context.outcome = slice_scene(context, *arguments); });

@@ -7,6 +7,8 @@
 #include <absl/strings/str_join.h>
 #include <absl/strings/str_split.h>
 
+#include "nearest_name.h"
+
 namespace isofield {
 namespace {
 
@@ -20,6 +22,9 @@ struct Place {
   const FieldDescriptor* field;
 
   std::string name() const { return outer ? absl::StrCat(outer->name(), ".", field->name()) : field->name(); }
+  std::string json_name() const {
+    return outer ? absl::StrCat(outer->json_name(), ".", field->json_name()) : field->json_name();
+  }
 };
 
 bool is_message(const FieldDescriptor& field) {
@@ -108,10 +113,13 @@ std::string expected_value(const FieldDescriptor& field) {
       return value_names(*field.enum_type());
     case FieldDescriptor::CPPTYPE_BOOL:
       return "true or false";
-    case FieldDescriptor::CPPTYPE_UINT32:
-      return "a whole number";
-    default:
-      return field.is_repeated() ? "numbers separated by commas" : "a number";
+    default: {
+      const char* kind = field.is_repeated()                                        ? "numbers separated by commas"
+                         : field.cpp_type() == FieldDescriptor::CPPTYPE_UINT32 ? "a whole number"
+                                                                                    : "a number";
+      const std::string accepts = range_of(field).accepts;
+      return accepts.empty() ? kind : absl::StrCat(kind, ": ", accepts);
+    }
   }
 }
 
@@ -123,14 +131,13 @@ std::vector<std::string> parameter_names(const Message& message) {
   return names;
 }
 
-std::vector<std::string> parameter_descriptions(const Message& message) {
-  std::vector<std::string> descriptions;
+std::vector<Parameter> describe_parameters(const Message& message) {
+  std::vector<Parameter> parameters;
   for (const Place& place : places_of(message)) {
     // A message's name stands for the enum in it, which is listed by itself.
-    if (is_message(*place.field)) continue;
-    descriptions.push_back(absl::StrCat(place.name(), ": ", expected_value(*place.field)));
+    if (!is_message(*place.field)) parameters.push_back({place.name(), range_of(*place.field)});
   }
-  return descriptions;
+  return parameters;
 }
 
 absl::Status set_parameter(const std::string& assignment, Message& message) {
@@ -141,8 +148,9 @@ absl::Status set_parameter(const std::string& assignment, Message& message) {
   // A whole name before the last part of one.
   std::vector<Place> found, nested;
   for (const Place& place : places_of(message)) {
-    if (absl::EqualsIgnoreCase(place.name(), name)) found.push_back(place);
-    if (place.outer && absl::EqualsIgnoreCase(place.field->name(), name)) nested.push_back(place);
+    const auto is = [&](const std::string& own) { return absl::EqualsIgnoreCase(own, name); };
+    if (is(place.name()) || is(place.json_name())) found.push_back(place);
+    if (place.outer && (is(place.field->name()) || is(place.field->json_name()))) nested.push_back(place);
   }
   if (found.empty()) found = nested;
   if (found.size() > 1) {
@@ -150,8 +158,12 @@ absl::Status set_parameter(const std::string& assignment, Message& message) {
   }
   if (found.empty()) {
     const std::vector<std::string> names = parameter_names(message);
+    // "theta0" is near to "teta0", and stands for opening.theta0.
+    std::vector<std::string> all = names;
+    for (const Place& place : places_of(message)) all.push_back(place.field->name());
     return refuse(assignment, names.empty() ? "no parameter: this operator has none"
-                                            : absl::StrCat("one of the names ", absl::StrJoin(names, ", ")));
+                                            : absl::StrCat("one of the names ", absl::StrJoin(names, ", "),
+                                                           did_you_mean(name, all)));
   }
   Place place = found[0];
   if (is_message(*place.field)) {

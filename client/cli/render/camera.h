@@ -1,37 +1,55 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 
 #include "render/vector.h"
 
 namespace isofield {
 
-// Where the camera stands. Model space is right-handed with y up, as glTF has it.
+// From where a picture is taken. Model space is right-handed with y up, as glTF has it; lengths are in model units.
 struct View {
-  // Degrees around y: 0 looks at the front (along -z), 90 at the right side (along -x).
-  double azimuth = 35;
-  // Degrees above the horizon, within [-90, 90].
-  double elevation = 20;
+  // Looks from a side: azimuth in degrees around y, 0 from the front (along -z), 90 from the right side (along -x);
+  // elevation in degrees above the horizon, within [-90, 90].
+  static View from(double azimuth, double elevation);
+  // Looks from there, and keeps everything else.
+  void turn_to(double azimuth, double elevation);
+
+  // In which the camera looks, of any length but 0.
+  std::array<double, 3> direction = from(35, 20).direction;
+  // What is upwards in the picture; not parallel to the direction.
+  std::array<double, 3> up = {0, 1, 0};
+  // Degrees, within [1, 150]: the whole opening angle along the picture's shorter edge. Some perspective, little
+  // distortion.
+  double field_of_view = 28;
+  // The point that the camera looks at, and how far it is from the camera. Without them they are so that the picture is
+  // filled by the model.
+  std::optional<std::array<double, 3>> target;
+  std::optional<double> distance;
+
+  bool operator==(const View&) const = default;
 };
 
 // A perspective camera. Camera space: x right, y up, z towards the viewer; the camera looks along -z from its origin.
 struct Camera {
   Vector right, up, back;      // unit axes of camera space in model space
-  Vector eye;                  // model space
+  Vector target;               // model space
+  float distance = 1;          // from the target
   float tan_x = 1, tan_y = 1;  // of half the opening angles
-  float near = 0, far = 1;     // distances that enclose the model
+  float near = 0, far = 1;     // distances along the view that enclose what is seen of the model; 0 <= near < far
 
   Vector to_camera(const Vector& position) const {
-    const Vector p = position - eye;
-    return {dot(p, right), dot(p, up), dot(p, back)};
+    const Vector p = position - target;
+    return {dot(p, right), dot(p, up), dot(p, back) - distance};
   }
   Vector turn_to_camera(const Vector& direction) const {
     return {dot(direction, right), dot(direction, up), dot(direction, back)};
   }
 };
 
-// The nearest camera of that view whose picture (width / height = aspect) holds all positions ([n, 3], n >= 1) with a
-// margin around them.
+// The camera of a view. Where the view leaves it open, it is the nearest one whose picture (width / height = aspect)
+// holds all positions ([n, 3], n >= 1) with a margin around them.
 Camera fit_camera(std::span<const float> positions, const View& view, double aspect);
 
 }  // namespace isofield

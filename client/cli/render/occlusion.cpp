@@ -4,6 +4,8 @@
 #include <array>
 #include <numbers>
 
+#include "render/bands.h"
+
 namespace isofield {
 namespace {
 
@@ -74,31 +76,33 @@ class Occlusion {
 // Averages over squares of kPattern, leaving out what lies at another depth.
 std::vector<float> smooth(const std::vector<float>& values, const Visibility& seen, float radius) {
   std::vector<float> out(values.size(), 1);
-  for (int y = 0; y < seen.height; ++y) {
-    for (int x = 0; x < seen.width; ++x) {
-      const std::size_t at =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
-      if (seen.inverse_depth[at] == 0) continue;
-      const float depth = 1 / seen.inverse_depth[at];
-      // |1/a - 1/b| > radius, without a division for each neighbour.
-      const float tolerance = radius / (depth * depth);
-      float sum = 0;
-      float weight = 0;
-      for (int dy = -kPattern / 2; dy < kPattern / 2; ++dy) {
-        const int sy = y + dy;
-        if (sy < 0 || sy >= seen.height) continue;
-        for (int dx = -kPattern / 2; dx < kPattern / 2; ++dx) {
-          const int sx = x + dx;
-          if (sx < 0 || sx >= seen.width) continue;
-          const std::size_t other = at + static_cast<std::size_t>(dy * seen.width + dx);
-          if (std::abs(seen.inverse_depth[other] - seen.inverse_depth[at]) > tolerance) continue;
-          sum += values[other];
-          weight += 1;
+  for_each_band(seen.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < seen.width; ++x) {
+        const std::size_t at =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
+        if (seen.inverse_depth[at] == 0) continue;
+        const float depth = 1 / seen.inverse_depth[at];
+        // |1/a - 1/b| > radius, without a division for each neighbour.
+        const float tolerance = radius / (depth * depth);
+        float sum = 0;
+        float weight = 0;
+        for (int dy = -kPattern / 2; dy < kPattern / 2; ++dy) {
+          const int sy = y + dy;
+          if (sy < 0 || sy >= seen.height) continue;
+          for (int dx = -kPattern / 2; dx < kPattern / 2; ++dx) {
+            const int sx = x + dx;
+            if (sx < 0 || sx >= seen.width) continue;
+            const std::size_t other = at + static_cast<std::size_t>(dy * seen.width + dx);
+            if (std::abs(seen.inverse_depth[other] - seen.inverse_depth[at]) > tolerance) continue;
+            sum += values[other];
+            weight += 1;
+          }
         }
+        out[at] = sum / weight;
       }
-      out[at] = sum / weight;
     }
-  }
+  });
   return out;
 }
 
@@ -107,12 +111,14 @@ std::vector<float> smooth(const std::vector<float>& values, const Visibility& se
 std::vector<float> ambient_visibility(const Visibility& seen, const Camera& camera, float radius) {
   const Occlusion occlusion(seen, camera, radius);
   std::vector<float> values(seen.inverse_depth.size());
-  for (int y = 0; y < seen.height; ++y) {
-    for (int x = 0; x < seen.width; ++x) {
-      values[static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x)] =
-          occlusion.at(x, y);
+  for_each_band(seen.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < seen.width; ++x) {
+        values[static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x)] =
+            occlusion.at(x, y);
+      }
     }
-  }
+  });
   return smooth(values, seen, 0.3f * radius);
 }
 

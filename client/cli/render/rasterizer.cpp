@@ -1,25 +1,42 @@
 #include "render/rasterizer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
+
+#include "render/bands.h"
 
 namespace isofield {
 namespace {
 
-// A vertex on the picture: x, y in samples, and 1 / depth, which is linear there; its normal in camera space.
+// Of the distance to what the camera looks at: what is nearer, or behind the camera, is not drawn.
+constexpr float kNearest = 1e-3f;
+
+// A vertex on the picture: x, y in samples, and 1 / depth, which is linear there; its normal in camera space. Without a
+// depth: it is too near.
 struct Corner {
-  float x, y, inverse_depth;
+  float x = 0, y = 0, inverse_depth = 0;
   Vector normal;
 };
+
+// The whole number at or above x, which may be far outside of the picture.
+int ceiling(float x, int most) {
+  return static_cast<int>(std::ceil(std::clamp(x, 0.0f, static_cast<float>(most))));
+}
+int floor(float x, int most) {
+  return static_cast<int>(std::floor(std::clamp(x, -1.0f, static_cast<float>(most))));
+}
 
 std::vector<Corner> project(const Mesh& mesh, const Camera& camera, int width, int height) {
   std::vector<Corner> corners(mesh.vertex_count());
   const float scale_x = 0.5f * static_cast<float>(width) / camera.tan_x;
   const float scale_y = 0.5f * static_cast<float>(height) / camera.tan_y;
+  const float nearest = kNearest * camera.distance;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const float* position = &mesh.positions[3 * i];
     const float* normal = &mesh.normals[3 * i];
     const Vector p = camera.to_camera({position[0], position[1], position[2]});
+    if (!(-p.z >= nearest)) continue;
     const float inverse_depth = -1 / p.z;
     corners[i] = {0.5f * static_cast<float>(width) + p.x * inverse_depth * scale_x,
                   0.5f * static_cast<float>(height) - p.y * inverse_depth * scale_y, inverse_depth,
@@ -32,24 +49,20 @@ std::int16_t pack(float component) {
   return static_cast<std::int16_t>(std::lround(component * 32767));
 }
 
+// Draws into the rows [first, last).
 class Painter {
  public:
-  Painter(int width, int height) {
-    seen_.width = width;
-    seen_.height = height;
-    const std::size_t samples = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    seen_.inverse_depth.assign(samples, 0);
-    seen_.normals.resize(2 * samples);
-  }
+  Painter(Visibility& seen, int first, int last) : seen_(seen), first_row_(first), last_row_(last - 1) {}
 
   void draw(const Corner& a, const Corner& b, const Corner& c) {
+    if (a.inverse_depth == 0 || b.inverse_depth == 0 || c.inverse_depth == 0) return;
     // Rows go down, so a counter-clockwise triangle has a negative area here.
     const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     if (!(area < 0)) return;
-    const int x0 = std::max(0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}) - 0.5f)));
-    const int x1 = std::min(seen_.width - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}) - 0.5f)));
-    const int y0 = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}) - 0.5f)));
-    const int y1 = std::min(seen_.height - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}) - 0.5f)));
+    const int x0 = ceiling(std::min({a.x, b.x, c.x}) - 0.5f, seen_.width);
+    const int x1 = floor(std::max({a.x, b.x, c.x}) - 0.5f, seen_.width - 1);
+    const int y0 = std::max(first_row_, ceiling(std::min({a.y, b.y, c.y}) - 0.5f, seen_.height));
+    const int y1 = std::min(last_row_, floor(std::max({a.y, b.y, c.y}) - 0.5f, seen_.height - 1));
     const float scale = 1 / area;
     for (int y = y0; y <= y1; ++y) {
       const float py = static_cast<float>(y) + 0.5f;
@@ -71,21 +84,28 @@ class Painter {
     }
   }
 
-  Visibility take() { return std::move(seen_); }
-
  private:
-  Visibility seen_;
+  Visibility& seen_;
+  const int first_row_, last_row_;
 };
 
 }  // namespace
 
 Visibility rasterize(const Mesh& mesh, const Camera& camera, int width, int height) {
   const std::vector<Corner> corners = project(mesh, camera, width, height);
-  Painter painter(width, height);
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    painter.draw(corners[mesh.triangles[i]], corners[mesh.triangles[i + 1]], corners[mesh.triangles[i + 2]]);
-  }
-  return painter.take();
+  Visibility seen;
+  seen.width = width;
+  seen.height = height;
+  const std::size_t samples = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  seen.inverse_depth.assign(samples, 0);
+  seen.normals.resize(2 * samples);
+  for_each_band(height, [&](int first, int last) {
+    Painter painter(seen, first, last);
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+      painter.draw(corners[mesh.triangles[i]], corners[mesh.triangles[i + 1]], corners[mesh.triangles[i + 2]]);
+    }
+  });
+  return seen;
 }
 
 }  // namespace isofield

@@ -23,7 +23,7 @@ struct Visibility {
   }
 };
 
-// Draws the front faces of a mesh with normals that the camera holds completely.
+// Draws the front faces of a mesh with normals. Triangles that come very near to the camera are left out.
 Visibility rasterize(const Mesh& mesh, const Camera& camera, int width, int height);
 
 }  // namespace isofield

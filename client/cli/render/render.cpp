@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
+#include "render/bands.h"
 #include "render/occlusion.h"
 #include "render/rasterizer.h"
 
@@ -112,30 +114,41 @@ Vector shade_sample(const Visibility& seen, std::size_t sample, int x, int y, co
 Image paint(const Visibility& seen, const std::vector<float>& sky_seen, const Camera& camera, int width, int height) {
   const SrgbTable srgb;
   Image image{width, height, {}};
-  image.rgb.reserve(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (int y = 0; y < height; ++y) {
-    const Vector behind = background(y, height);
-    for (int x = 0; x < width; ++x) {
-      const float sky = sky_seen.empty() ? 1 : sky_seen[static_cast<std::size_t>(y) * width + x];
-      std::array<int, 3> sum = {0, 0, 0};
-      for (int i = 0; i < kSupersampling * kSupersampling; ++i) {
-        const int sx = x * kSupersampling + i % kSupersampling;
-        const int sy = y * kSupersampling + i / kSupersampling;
-        const std::size_t sample =
-            static_cast<std::size_t>(sy) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(sx);
-        const Vector color =
-            seen.inverse_depth.empty() ? behind : shade_sample(seen, sample, sx, sy, camera, sky, behind);
-        // Averaged as bytes of sRGB, which keeps edges between light and dark even to the eye.
-        sum[0] += srgb(color.x);
-        sum[1] += srgb(color.y);
-        sum[2] += srgb(color.z);
-      }
-      for (const int channel : sum) {
-        image.rgb.push_back(static_cast<std::uint8_t>((channel + kSupersampling) / (kSupersampling * kSupersampling)));
+  image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for_each_band(height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const Vector behind = background(y, height);
+      std::uint8_t* out = &image.rgb[3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
+      for (int x = 0; x < width; ++x) {
+        const float sky = sky_seen.empty() ? 1 : sky_seen[static_cast<std::size_t>(y) * width + x];
+        std::array<int, 3> sum = {0, 0, 0};
+        for (int i = 0; i < kSupersampling * kSupersampling; ++i) {
+          const int sx = x * kSupersampling + i % kSupersampling;
+          const int sy = y * kSupersampling + i / kSupersampling;
+          const std::size_t sample =
+              static_cast<std::size_t>(sy) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(sx);
+          const Vector color =
+              seen.inverse_depth.empty() ? behind : shade_sample(seen, sample, sx, sy, camera, sky, behind);
+          // Averaged as bytes of sRGB, which keeps edges between light and dark even to the eye.
+          sum[0] += srgb(color.x);
+          sum[1] += srgb(color.y);
+          sum[2] += srgb(color.z);
+        }
+        for (const int channel : sum) {
+          *out++ = static_cast<std::uint8_t>((channel + kSupersampling) / (kSupersampling * kSupersampling));
+        }
       }
     }
-  }
+  });
   return image;
+}
+
+// The number of the fewest digits that is this float32: what a person would write.
+double decimal(float value) {
+  char digits[32];
+  double number = value;
+  std::from_chars(digits, std::to_chars(digits, digits + sizeof(digits), value).ptr, number);
+  return number;
 }
 
 }  // namespace
@@ -154,6 +167,15 @@ absl::StatusOr<Image> render(const Mesh& mesh, const RenderOptions& options) {
   const float extent = (camera.near + camera.far) * std::min(camera.tan_x, camera.tan_y);
   const std::vector<float> sky_seen = ambient_visibility(thin_out(seen), camera, kOcclusionReach * extent);
   return paint(seen, sky_seen, camera, options.width, options.height);
+}
+
+View fit_view(const Mesh& mesh, const View& view, const RenderOptions& options) {
+  View fitted = view;
+  if (mesh.positions.empty()) return fitted;
+  const Camera camera = fit_camera(mesh.positions, view, static_cast<double>(options.width) / options.height);
+  if (!fitted.target) fitted.target = {decimal(camera.target.x), decimal(camera.target.y), decimal(camera.target.z)};
+  if (!fitted.distance) fitted.distance = decimal(camera.distance);
+  return fitted;
 }
 
 }  // namespace isofield

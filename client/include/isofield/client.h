@@ -101,8 +101,9 @@ struct Slice {
   std::vector<float> values;
   // One for each level asked for; of none, that of the surface.
   std::vector<LevelCurves> curves;
-  // The axes taken: unit vectors.
-  std::array<double, 3> u{}, v{};
+  // The axes taken: unit vectors. The first sample, and the samples' distances along u and v; model units.
+  std::array<double, 3> u{}, v{}, origin{};
+  std::array<double, 2> spacing{};
 };
 
 // A connection to one isofieldd. Owns its channel; every method may be called from any number of threads at once.

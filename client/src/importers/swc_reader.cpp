@@ -118,19 +118,4 @@ std::vector<SwcSample> read_swc_samples(const std::string& text, const Vector3& 
   return reader.take();
 }
 
-bool looks_like_swc(absl::string_view text) {
-  LineReader lines(text);
-  absl::string_view line;
-  while (lines.next(line)) {
-    const auto fields = split_fields(without_comment(line));
-    if (fields.empty()) continue;
-    if (fields.size() < kColumns) return false;
-    const auto id = parse_integer64(fields[kId]), parent = parse_integer64(fields[kParent]);
-    const auto type = parse_integer(fields[kType]);
-    return id && *id >= 0 && parent && *parent == -1 && type && *type >= 0 && *type <= 255 &&
-           std::all_of(fields.begin() + kX, fields.begin() + kParent, parse_double);
-  }
-  return false;
-}
-
 }  // namespace isofield

@@ -1,0 +1,52 @@
+#include "commands/checks.h"
+
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_cat.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+namespace isofield {
+namespace {
+
+// `accepts` is asked about finite numbers. `range` stands in the help.
+CLI::Validator number_that(const std::string& expected, const std::string& range,
+                           const std::function<bool(double)>& accepts) {
+  return CLI::Validator(
+      [=](const std::string& text) -> std::string {
+        double value = 0;
+        if (absl::SimpleAtod(text, &value) && std::isfinite(value) && accepts(value)) return "";
+        return absl::StrCat("expected ", expected, ", not ", text.substr(0, 40));
+      },
+      range);
+}
+
+}  // namespace
+
+CLI::Validator positive() {
+  return number_that("a finite number above 0", "above 0", [](double value) { return value > 0; });
+}
+
+CLI::Validator number() {
+  return number_that("a finite number", "", [](double) { return true; });
+}
+
+CLI::Validator within(double least, double most) {
+  const std::string range = absl::StrCat("within [", least, ", ", most, "]");
+  return number_that("a number " + range, range, [=](double value) { return value >= least && value <= most; });
+}
+
+CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
+  const std::string range = most == UINT64_MAX ? absl::StrCat("at least ", least)
+                                               : absl::StrCat("within [", least, ", ", most, "]");
+  return CLI::Validator(
+      [=](const std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        if (absl::SimpleAtoi(text, &value) && value >= least && value <= most) return "";
+        return absl::StrCat("expected a whole number ", range, ", not ", text.substr(0, 40));
+      },
+      range);
+}
+
+}  // namespace isofield

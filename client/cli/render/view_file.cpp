@@ -1,0 +1,135 @@
+#include "render/view_file.h"
+
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_join.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <cmath>
+#include <vector>
+
+#include "isofield/scene_file.h"
+#include "json_output.h"
+#include "nearest_name.h"
+#include "output_file.h"
+
+namespace isofield {
+namespace {
+
+using google::protobuf::ListValue;
+using google::protobuf::Struct;
+using google::protobuf::Value;
+
+const std::vector<std::string>& keys() {
+  static const auto* const kKeys = new std::vector<std::string>{"target", "distance", "direction", "up", "field_of_view"};
+  return *kKeys;
+}
+
+bool read_number(const Value& value, double& out) {
+  out = value.number_value();
+  return value.has_number_value() && std::isfinite(out);
+}
+
+bool read_vector(const Value& value, std::array<double, 3>& out) {
+  if (value.list_value().values_size() != 3) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (!read_number(value.list_value().values(i), out[i])) return false;
+  }
+  return true;
+}
+
+absl::StatusOr<View> read_view(const Struct& object) {
+  View view;
+  for (const auto& [key, value] : object.fields()) {
+    if (std::find(keys().begin(), keys().end(), key) != keys().end()) continue;
+    return absl::InvalidArgumentError(absl::StrCat("no such field \"", key.substr(0, 60), "\"", did_you_mean(key, keys()),
+                                                   "; expected ", absl::StrJoin(keys(), ", ")));
+  }
+  for (const std::string& key : keys()) {
+    const auto found = object.fields().find(key);
+    if (found == object.fields().end()) {
+      return absl::InvalidArgumentError(absl::StrCat(key, " is missing; expected ", absl::StrJoin(keys(), ", ")));
+    }
+    bool is_good = true;
+    if (key == "distance") {
+      is_good = read_number(found->second, view.distance.emplace());
+    } else if (key == "field_of_view") {
+      is_good = read_number(found->second, view.field_of_view);
+    } else {
+      is_good = read_vector(found->second, key == "target"      ? view.target.emplace()
+                                           : key == "direction" ? view.direction
+                                                                : view.up);
+    }
+    if (!is_good) {
+      const bool is_number = key == "distance" || key == "field_of_view";
+      return absl::InvalidArgumentError(
+          absl::StrCat(key, ": expected ", is_number ? "a finite number" : "3 finite numbers, such as [0, 1, 0]"));
+    }
+  }
+  const std::string fault = view_fault(view);
+  if (!fault.empty()) return absl::InvalidArgumentError(fault);
+  return view;
+}
+
+double length(const std::array<double, 3>& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+}  // namespace
+
+std::string view_fault(const View& view) {
+  constexpr double kMost = 1e30;
+  const auto& [dx, dy, dz] = view.direction;
+  const auto& [ux, uy, uz] = view.up;
+  for (const auto& [name, vector] : {std::pair("direction", view.direction), std::pair("up", view.up)}) {
+    if (!(length(vector) > 1e-30 && length(vector) < kMost)) {
+      return absl::StrCat(name, " = [", absl::StrJoin(vector, ", "), "]: expected a direction of any length but 0");
+    }
+  }
+  const double across = length({dy * uz - dz * uy, dz * ux - dx * uz, dx * uy - dy * ux});
+  if (!(across > 1e-6 * length(view.direction) * length(view.up))) {
+    return absl::StrCat("up = [", absl::StrJoin(view.up, ", "), "]: expected a direction that is not parallel to the "
+                        "view's, [", absl::StrJoin(view.direction, ", "), "]");
+  }
+  if (!(view.field_of_view >= 1 && view.field_of_view <= 150)) {
+    return absl::StrCat("field_of_view = ", view.field_of_view, ": expected degrees within [1, 150]");
+  }
+  if (view.distance && !(*view.distance > 1e-30 && *view.distance < kMost)) {
+    return absl::StrCat("distance = ", *view.distance, ": expected a length above 0");
+  }
+  return "";
+}
+
+absl::StatusOr<std::optional<View>> read_view_file(const std::string& path) {
+  const auto text = read_file(path);
+  if (absl::IsNotFound(text.status())) return std::nullopt;
+  if (!text.ok()) return text.status();
+  Struct object;
+  const auto parsed = google::protobuf::util::JsonStringToMessage(*text, &object);
+  if (!parsed.ok()) {
+    // Of three lines, of which two point into the text.
+    const std::string reason = parsed.message().ToString();
+    return absl::InvalidArgumentError(absl::StrCat(path, ": not a view in JSON: ", reason.substr(0, reason.find('\n')),
+                                                   "; mend it, or delete it to begin anew"));
+  }
+  auto view = read_view(object);
+  if (!view.ok()) return absl::InvalidArgumentError(absl::StrCat(path, ": ", view.status().message()));
+  return *std::move(view);
+}
+
+absl::Status write_view_file(const std::string& path, const View& view) {
+  const auto list = [](const std::array<double, 3>& v) { return std::vector<double>(v.begin(), v.end()); };
+  JsonObject object;
+  object.set("target", list(view.target.value_or(std::array<double, 3>{})))
+      .set("distance", view.distance.value_or(1))
+      .set("direction", list(view.direction))
+      .set("up", list(view.up))
+      .set("field_of_view", view.field_of_view);
+  auto file = OutputFile::create(path);
+  if (!file.ok()) return file.status();
+  absl::Status status = (*file)->write(object.text() + "\n");
+  if (status.ok()) status = (*file)->commit();
+  return status;
+}
+
+}  // namespace isofield
