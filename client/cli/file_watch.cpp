@@ -84,8 +84,10 @@ absl::StatusOr<bool> FileWatch::take_events(bool blocks) {
 }
 
 absl::Status FileWatch::wait() {
-  if (auto status = follow(); !status.ok()) return status;
-  absl::StatusOr<bool> changed = false;
+  absl::StatusOr<bool> changed = take_events(false);
+  if (changed.ok() && !*changed) {
+    if (auto status = follow(); !status.ok()) return status;
+  }
   while (changed.ok() && !*changed) changed = take_events(true);
   // What came with it belongs to the same change.
   for (absl::StatusOr<bool> more = changed; more.ok() && *more;) more = take_events(false);

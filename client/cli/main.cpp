@@ -71,17 +71,16 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
+    context.outcome = usage_error(explain_usage(app, error));
     // The line was not understood as a whole, so the flag may not have been reached.
-    const bool json = std::count(arguments.begin(), arguments.end(), "--json") > 0;
-    const ExitCode code = report_error(usage_error(explain_usage(app, error)), json);
-    std::fprintf(stderr, "%s --help says more.\n", chosen_command(app).c_str());
-    return code;
+    context.json = std::count(arguments.begin(), arguments.end(), "--json") > 0;
   }
-  if (!context.outcome.ok()) report_error(context.outcome, context.json);
+  const ExitCode code = context.outcome.ok() ? kSuccess : report_error(context.outcome, context.json);
+  if (code == kWrongUsage) std::fprintf(stderr, "%s --help says more.\n", chosen_command(app).c_str());
   // A full disk or a closed pipe shows when the output is flushed.
-  if (std::fflush(stdout) != 0 && context.outcome.ok()) {
+  if (std::fflush(stdout) != 0 && code == kSuccess) {
     std::perror("isofield: standard output");
     return kFileFailed;
   }
-  return exit_code(context.outcome);
+  return code;
 }

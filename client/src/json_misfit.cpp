@@ -159,7 +159,7 @@ class Walker {
     if (next_is('n')) return skip_value(depth);  // null
     const std::size_t start = (skip_space(), at_);
     if (!next_is('{')) {
-      if (at_ >= text_.size()) return syntax("\"{\"");
+      if (at_ >= text_.size() || !absl::StrContains("\"[-0123456789tf", text_.substr(at_, 1))) return syntax("\"{\"");
       return meaning(start, path.empty() ? "the text" : path, " is no object; expected fields between { and }");
     }
     if (depth == 1) node_at_ = start;

@@ -45,6 +45,11 @@ class FieldReader {
   }
 
   double number(absl::string_view field, double value, double least, double most, absl::string_view expected) {
+    if (!(value >= least && value <= most)) refuse(field, absl::StrCat(value), expected);
+    return value;
+  }
+  // Of a field that has no default and whose message cannot tell whether it is there.
+  double required_number(absl::string_view field, double value, double least, double most, absl::string_view expected) {
     if (!(value >= least && value <= most)) refuse_number(field, value, expected);
     return value;
   }

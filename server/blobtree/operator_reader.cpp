@@ -292,7 +292,7 @@ std::optional<Operator> read_kind(const Message& m, FieldReader& in) {
     op.kind = Kind::kDifference;
   } else if (m.has_ricci()) {
     op.kind = Kind::kRicci;
-    op.exponent = in.number("exponent", m.ricci().exponent(), 1, 64, "an exponent within [1, 64]");
+    op.exponent = in.required_number("exponent", m.ricci().exponent(), 1, 64, "an exponent within [1, 64]");
   } else if (m.has_gradient()) {
     classic(Kind::kGradient, m.gradient());
     op.opening = read_opening(m.gradient().opening(), in);
@@ -325,7 +325,7 @@ std::optional<Operator> read_kind(const Message& m, FieldReader& in) {
     op.a2 = in.positive("a2", m.pasko().a2());
   } else if (m.has_superelliptic()) {
     classic(Kind::kSuperelliptic, m.superelliptic());
-    op.exponent = in.number("exponent", m.superelliptic().exponent(), 1, 64, "an exponent within [1, 64]");
+    op.exponent = in.required_number("exponent", m.superelliptic().exponent(), 1, 64, "an exponent within [1, 64]");
     read_terms(m.superelliptic().ranges(), {}, {}, op, in);
     read_angle(m.superelliptic().by_angle(), m.superelliptic().omega(), op, in);
   } else if (m.has_functional()) {

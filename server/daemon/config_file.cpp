@@ -68,7 +68,7 @@ bool take_value(absl::string_view& rest, ConfigLine& out) {
   const absl::string_view all = rest;
   if (rest.front() == '"' || rest.front() == '\'') {
     const std::optional<std::string> text = take_text(rest);
-    out.written = std::string(all.substr(0, all.size() - rest.size()));
+    out.written = std::string(text ? all.substr(0, all.size() - rest.size()) : all);
     if (!text) return false;
     out.value = *text;
     return true;

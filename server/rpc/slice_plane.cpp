@@ -24,13 +24,15 @@ absl::StatusOr<dvec3> read_axis(const char* name, const Numbers& numbers, const 
     return absl::InvalidArgumentError(absl::StrCat(name, " = (", axis.x, ", ", axis.y, ", ", axis.z,
                                                    "): expected a length of at least ", blobtree::kMinLength));
   }
-  return axis * (1 / length(axis));
+  return axis;
 }
 
 absl::Status read_axes(const v1::SliceRequest& request, engine::Plane& plane) {
-  ISOFIELD_ASSIGN_OR_RETURN(plane.u, read_axis("u", request.u(), {1, 0, 0}));
+  ISOFIELD_ASSIGN_OR_RETURN(const dvec3 u, read_axis("u", request.u(), {1, 0, 0}));
   ISOFIELD_ASSIGN_OR_RETURN(const dvec3 v, read_axis("v", request.v(), {0, 1, 0}));
-  const dvec3 rest = v - plane.u * dot(plane.u, v);
+  plane.u = u * (1 / length(u));
+  const dvec3 unit = v * (1 / length(v));
+  const dvec3 rest = unit - plane.u * dot(plane.u, unit);
   if (!(length(rest) >= 1e-6)) {
     return absl::InvalidArgumentError(
         absl::StrCat("v = (", v.x, ", ", v.y, ", ", v.z, "): expected a direction that is not parallel to u"));
@@ -48,7 +50,7 @@ std::array<double, 2> extents_of(const blobtree::Box& box, const engine::Plane& 
   return {along(plane.u), along(plane.v)};
 }
 
-absl::Status read_counts(const v1::SliceRequest& request, std::uint64_t max_points, std::array<double, 2>& counts) {
+absl::Status read_counts(const v1::SliceRequest& request, std::array<double, 2>& counts) {
   if (request.counts_size() != 2) {
     return absl::InvalidArgumentError(absl::StrCat("counts holds ", request.counts_size(), " numbers: expected 2"));
   }
@@ -56,7 +58,7 @@ absl::Status read_counts(const v1::SliceRequest& request, std::uint64_t max_poin
     if (request.counts(i) < 1) {
       return absl::InvalidArgumentError(absl::StrCat("counts[", i, "] = 0: expected a count of at least 1"));
     }
-    counts[i] = static_cast<double>(std::min(request.counts(i), 2 * max_points));
+    counts[i] = static_cast<double>(request.counts(i));
   }
   return absl::OkStatus();
 }
@@ -87,7 +89,7 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
   ISOFIELD_RETURN_IF_ERROR(read_axes(request, plane));
   const std::array<double, 2> extents = extents_of(box, plane);
   std::array<double, 2> counts{}, spacing{};
-  if (!request.counts().empty()) ISOFIELD_RETURN_IF_ERROR(read_counts(request, max_points, counts));
+  if (!request.counts().empty()) ISOFIELD_RETURN_IF_ERROR(read_counts(request, counts));
   if (!request.spacing().empty()) {
     ISOFIELD_RETURN_IF_ERROR(read_spacing(request, spacing));
   } else if (!request.counts().empty()) {
@@ -97,7 +99,7 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
   }
   if (request.counts().empty()) {
     // A sample more than steps; rounding must not add another.
-    for (int i = 0; i < 2; ++i) counts[i] = std::ceil(extents[i] / spacing[i] * (1 - 1e-9)) + 1;
+    for (int i = 0; i < 2; ++i) counts[i] = std::ceil(extents[i] / spacing[i] * (1 - 1e-6)) + 1;
   }
   if (!(counts[0] * counts[1] <= static_cast<double>(max_points))) {
     return absl::ResourceExhaustedError(absl::StrCat("counts = [", counts[0], ", ", counts[1], "]: at most ", max_points,

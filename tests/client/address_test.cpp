@@ -27,9 +27,12 @@ TEST(Address, RefusesAllElseAndNamesTheForms) {
 }
 
 TEST(Errors, SayWhatToDo) {
-  const auto status = from_grpc(grpc::Status(grpc::StatusCode::UNAVAILABLE, "failed to connect"), "unix:/x");
+  const auto status = from_grpc(grpc::Status(grpc::StatusCode::UNAVAILABLE, "failed to connect: Connection refused"), "unix:/x");
   EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
-  EXPECT_TRUE(absl::StrContains(status.message(), "start one with: isofieldd --listen unix:/x")) << status;
+  EXPECT_TRUE(absl::StrContains(status.message(), "nothing listens at unix:/x; start isofieldd there")) << status;
+  EXPECT_TRUE(absl::StrContains(
+      from_grpc(grpc::Status(grpc::StatusCode::UNAVAILABLE, "DNS resolution failed"), "nowhere:1").message(),
+      "no isofieldd answers at nowhere:1 (DNS"));
   EXPECT_TRUE(absl::StrContains(
       from_grpc(grpc::Status(grpc::StatusCode::UNAVAILABLE, "Socket closed"), "unix:/x").message(), "was lost"));
   EXPECT_TRUE(absl::StrContains(from_grpc(grpc::Status(grpc::StatusCode::UNIMPLEMENTED, ""), "unix:/x").message(),

@@ -161,7 +161,87 @@ TEST_F(CliTest, ExitCodesTellServersFilesAndUsageApart) {
   EXPECT_EQ(run("ls"), 2);
   address_ = "unix:" + path("nothing");
   EXPECT_EQ(run("ls"), 3);
-  EXPECT_TRUE(absl::StrContains(err_, "isofieldd --listen unix:")) << err_;
+  EXPECT_EQ(err_, "isofield: nothing listens at " + address_ + "; start isofieldd there or state another --server\n");
+}
+
+TEST_F(CliTest, UsageErrorsNameTheNearestAndWhatIsAccepted) {
+  write_file(path("ball.json"), kBall);
+  const std::string ball = path("ball.json") + " ";
+  const struct {
+    std::string arguments, part;
+  } kWrong[] = {
+      {"rendr " + ball, "\"rendr\": no such command of isofield; did you mean \"render\"?; expected put, ls, "},
+      {"operator sho sum", "\"sho\": no such command of isofield operator; did you mean \"show\"?"},
+      {"", "a command is missing; expected put, ls, "},
+      {"operator", "a command is missing; expected ls, show, "},
+      {"render " + ball + "--azimut 3 -o a.png", "--azimut: no such option of isofield render; did you mean \"--azimuth\"?"},
+      {"render --azimut=3 " + ball, "did you mean \"--azimuth\"?"},
+      {"--sever x ls", "did you mean \"--server\"?"},
+      {"ls surplus", "\"surplus\": isofield ls takes no further argument"},
+      {"render -o a.png", "SCENE is required; SCENE is: A file, or else a name on the server"},
+      {"mesh " + ball, "--output is required"},
+      {"mesh " + ball + "-o a.glb --cell", "--cell"},
+      {"mesh " + ball + "-o a.glb --resolution 0", "expected a whole number within [1, 1048576], not 0"},
+      {"mesh " + ball + "-o a.glb --resolution 5x", "expected a whole number within [1, 1048576], not 5x"},
+      {"mesh " + ball + "-o a.glb --bounds 1,2,3", "x0,y0,z0,x1,y1,z1: the box to mesh"},
+      {"mesh " + ball + "-o a.glb --bounds 1,2,3,4,5,x", "expected a finite number, not x"},
+      {"mesh " + ball + "-o a.glb --iso nan", "expected a finite number, not nan"},
+      {"mesh " + ball + "-o a.glb --tolerance 1", "expected a number within [1e-05, 0.1], not 1"},
+      {"render " + ball + "-o a.png --elevation 91", "expected a number within [-90, 90], not 91"},
+      {"render " + ball + "-o a.png --view side", "back"},
+      {"render " + ball + "-o a.png --up 1,2", "x,y,z: what is upwards"},
+      {"render " + ball + "-o a.png --view front --up 0,0,1", "not parallel"},
+      {"slice " + ball + "-o a.png --counts 0,5", "expected a whole number within [1, 4294967296], not 0"},
+      {"slice " + ball + "-o a.png --spacing -1", "expected a finite number above 0, not -1"},
+      {"edit a b.c=1 --expect-version -1", "expected a whole number at least 0, not -1"},
+      {"operator pick " + ball + "top 1 2 x", "expected a finite number, not x"},
+      {"--timeout nan ls", "expected a finite number above 0, not nan"},
+  };
+  for (const auto& [arguments, part] : kWrong) {
+    EXPECT_EQ(run(arguments), 2) << arguments;
+    EXPECT_TRUE(absl::StrContains(err_, part)) << "'" << part << "' in: " << err_;
+    EXPECT_TRUE(absl::StrContains(err_, " --help says more.\n")) << err_;
+    EXPECT_EQ(out_, "");
+  }
+}
+
+TEST_F(CliTest, JsonHasNumbersInOneOrderAndErrors) {
+  write_file(path("ball.json"), kBall);
+  EXPECT_EQ(run("put --json --name a " + path("ball.json")), 0);
+  EXPECT_EQ(out_,
+            "{\"name\":\"a\",\"version\":1,\"nodes\":1,\"primitives\":0,\"device_bytes\":0,\"support_min\":[],"
+            "\"support_max\":[]}\n");
+  EXPECT_EQ(run("--json rm none"), 1);
+  EXPECT_EQ(out_, "{\"error\":{\"code\":\"NOT_FOUND\",\"message\":\"no scene \\\"none\\\"\",\"exit_code\":1}}\n");
+  EXPECT_EQ(run("nonsense --json"), 2);
+  EXPECT_TRUE(absl::StartsWith(out_, "{\"error\":{\"code\":\"INVALID_ARGUMENT\",\"message\":")) << out_;
+  EXPECT_TRUE(absl::EndsWith(out_, "\"exit_code\":2}}\n")) << out_;
+  EXPECT_EQ(run("--json put /none.json"), 4);
+  EXPECT_TRUE(absl::EndsWith(out_, "\"exit_code\":4}}\n")) << out_;
+  EXPECT_EQ(run("import " + path("ball.json") + " -o " + path("ball.pb") + " --json"), 0);
+  EXPECT_EQ(out_, "{\"file\":\"" + path("ball.pb") + "\"}\n");
+  address_ = "unix:" + path("nothing");
+  EXPECT_EQ(run("ls --json"), 3);
+  EXPECT_TRUE(absl::StartsWith(out_, "{\"error\":{\"code\":\"UNAVAILABLE\",\"message\":\"nothing listens at ")) << out_;
+}
+
+TEST_F(CliTest, AViewFileKeepsTheCamera) {
+  write_file(path("ball.json"), kBall);
+  const std::string command = "render " + path("ball.json") + " --size 64x48 --view-file " + path("view.json") + " -o ";
+  EXPECT_EQ(run(command + path("a.png") + " --azimuth 90 --elevation 0"), 0) << err_;
+  const std::string kept = *read_file(path("view.json"));
+  EXPECT_TRUE(absl::StrContains(kept, "\"direction\":[-1,")) << kept;
+  EXPECT_EQ(run(command + path("b.png")), 0) << err_;
+  EXPECT_EQ(*read_file(path("a.png")), *read_file(path("b.png"))) << "without flags the same";
+  EXPECT_EQ(*read_file(path("view.json")), kept);
+  EXPECT_EQ(run(command + path("c.png") + " --distance 100 --field-of-view 10"), 0) << err_;
+  EXPECT_TRUE(absl::StrContains(*read_file(path("view.json")), "\"distance\":100,")) << "flags are saved";
+  EXPECT_NE(*read_file(path("a.png")), *read_file(path("c.png")));
+  write_file(path("view.json"), "{\"target\": [0, 0, 0]}");
+  EXPECT_EQ(run(command + path("d.png")), 4);
+  EXPECT_TRUE(absl::StrContains(err_, "view.json: distance is missing")) << err_;
+  EXPECT_EQ(*read_file(path("view.json")), "{\"target\": [0, 0, 0]}") << "it is left alone";
+  EXPECT_FALSE(read_file(path("d.png")).ok());
 }
 
 TEST_F(CliTest, AnInterruptedMeshLeavesNoFileAndStopsTheServer) {

@@ -59,11 +59,36 @@ TEST(OperatorParameters, RefusalsSayWhatThereIs) {
 }
 
 TEST(OperatorParameters, AreDescribed) {
-  EXPECT_EQ(
-      parameter_descriptions(v1::SuperellipticBlend()),
-      (std::vector<std::string>{"exponent: a number", "ranges: numbers separated by commas", "by_angle: true or false",
-                                "omega: a number", "form: one of union, intersection, difference"}));
-  EXPECT_TRUE(parameter_descriptions(v1::Sum()).empty());
+  const std::vector<Parameter> parameters = describe_parameters(v1::SuperellipticBlend());
+  ASSERT_EQ(parameters.size(), 5u);
+  EXPECT_EQ(parameters[0].name, "exponent");
+  EXPECT_EQ(parameters[0].range.accepts, "a number within [1, 64]");
+  EXPECT_EQ(parameters[0].range.otherwise, "") << "it must be stated";
+  EXPECT_EQ(parameters[3].name, "omega");
+  EXPECT_EQ(parameters[3].range.otherwise, "0.01");
+  EXPECT_EQ(parameters[4].range.accepts, "one of union, intersection, difference");
+  EXPECT_TRUE(describe_parameters(v1::Sum()).empty());
+}
+
+TEST(OperatorParameters, AllHaveARange) {
+  const auto* kinds = v1::Operator::descriptor()->FindOneofByName("kind");
+  for (int i = 0; i < kinds->field_count(); ++i) {
+    v1::Operator message;
+    const auto& kind = *message.GetReflection()->MutableMessage(&message, kinds->field(i));
+    for (const auto& [name, range] : describe_parameters(kind)) {
+      EXPECT_NE(range.accepts, "") << kinds->field(i)->name() << "." << name;
+    }
+  }
+}
+
+TEST(OperatorParameters, TakeTheNamesOfJsonToo) {
+  v1::SuperellipticBlend m;
+  ASSERT_TRUE(set_parameter("byAngle=true", m).ok());
+  EXPECT_TRUE(m.by_angle());
+  v1::GradientBlend gradient;
+  expect_refused(set_parameter("teta0=1", gradient), {"did you mean \"theta0\""});
+  expect_refused(set_parameter("opening.teta0=1", gradient), {"did you mean \"opening.theta0\""});
+  expect_refused(set_parameter("theta0=wide", gradient), {"degrees within [0, 45]"});
 }
 
 v1::Operator with_kind(const std::string& name) {

@@ -8,6 +8,7 @@
 
 #include "isofield/scene_file.h"
 #include "render/rasterizer.h"
+#include "render/view_file.h"
 #include "test_support.h"
 
 namespace isofield {
@@ -31,7 +32,7 @@ Box covered(const Visibility& seen) {
 
 TEST(Camera, HoldsTheModelWithAMarginInEveryView) {
   const Mesh mesh = torus_mesh(100, 50, 3.0f, 0.5f);
-  for (const View view : {View{0, 0}, View{35, 20}, View{123, -45}, View{0, 90}, View{180, -90}}) {
+  for (const View view : {View::from(0, 0), View::from(35, 20), View::from(123, -45), View::from(0, 90), View::from(180, -90)}) {
     for (const auto& [width, height] : {std::pair(400, 300), std::pair(200, 400), std::pair(300, 300)}) {
       const Camera camera = fit_camera(mesh.positions, view, static_cast<double>(width) / height);
       const Box box = covered(rasterize(mesh, camera, width, height));
@@ -46,9 +47,96 @@ TEST(Camera, HoldsTheModelWithAMarginInEveryView) {
   }
 }
 
+TEST(Camera, StandsWhereTheViewSays) {
+  const Mesh mesh = torus_mesh(100, 50, 3.0f, 0.5f);
+  View view = View::from(90, 0);
+  view.target = {1, 2, 3};
+  view.distance = 5;
+  view.field_of_view = 90;
+  const Camera camera = fit_camera(mesh.positions, view, 2);
+  // From the right side: x points at the viewer, z to the left.
+  const Vector eye = camera.to_camera({6, 2, 3}), beside = camera.to_camera({1, 2, 2});
+  EXPECT_NEAR(std::sqrt(dot(eye, eye)), 0, 1e-5);
+  EXPECT_NEAR(beside.x, 1, 1e-5);
+  EXPECT_NEAR(beside.z, -5, 1e-5);
+  EXPECT_NEAR(camera.tan_y, 1, 1e-5);
+  EXPECT_NEAR(camera.tan_x, 2, 1e-5);
+  view.up = {0, 0, 1};
+  EXPECT_NEAR(fit_camera(mesh.positions, view, 2).to_camera({1, 2, 4}).y, 1, 1e-5);
+}
+
+TEST(Camera, AFittedViewGivesTheSamePictureAgain) {
+  const Mesh mesh = torus_mesh(60, 30, 3.0f, 0.5f);
+  RenderOptions options;
+  options.width = options.height = 64;
+  const View fitted = fit_view(mesh, options.view, options);
+  ASSERT_TRUE(fitted.target && fitted.distance);
+  RenderOptions again = options;
+  again.view = fitted;
+  EXPECT_EQ(render(mesh, again)->rgb, render(mesh, options)->rgb);
+  EXPECT_EQ(fit_view(torus_mesh(60, 30, 1.0f, 0.5f), fitted, options), fitted) << "whatever the model";
+}
+
+TEST(Render, DrawsFromWithinAndFromBehind) {
+  const Mesh mesh = torus_mesh(60, 30, 3.0f, 0.5f);
+  RenderOptions options;
+  options.width = options.height = 32;
+  for (const double distance : {1e-6, 1.0, 1e20}) {
+    for (const std::array<double, 3> target : {std::array{3.0, 0.0, 0.0}, std::array{0.0, 0.0, -1e6}}) {
+      options.view.target = target;
+      options.view.distance = distance;
+      EXPECT_TRUE(render(mesh, options).ok());
+    }
+  }
+}
+
+TEST(ViewFile, KeepsAView) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.path("view.json");
+  EXPECT_EQ(*read_view_file(path), std::nullopt);
+  View view = View::from(30, 40);
+  view.target = {0.1, -2, 3e-7};
+  view.distance = 1.0 / 3;
+  view.field_of_view = 50;
+  ASSERT_TRUE(write_view_file(path, view).ok());
+  EXPECT_EQ(**read_view_file(path), view);
+}
+
+TEST(ViewFile, DamageIsToldWithTheFilesName) {
+  const TemporaryDirectory directory;
+  const std::string good =
+      R"({"target": [0, 0, 0], "distance": 5, "direction": [0, 0, -1], "up": [0, 1, 0], "field_of_view": 28})";
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  ASSERT_TRUE(read_view_file(write_file(directory.path("good"), good)).ok());
+  const struct {
+    std::string text, part;
+  } kBad[] = {{"", "not a view"},
+              {"{\"target\": [0,", "not a view"},
+              {"[]", "not a view"},
+              {"{}", "target is missing"},
+              {with("distance", "distanse"), "did you mean \"distance\""},
+              {with("\"up\": [0, 1, 0], ", ""), "up is missing"},
+              {with("5", "\"5\""), "distance: expected a finite number"},
+              {with("5", "-5"), "distance = -5: expected a length above 0"},
+              {with("28", "180"), "within [1, 150]"},
+              {with("[0, 0, 0]", "[0, 0]"), "target: expected 3 finite numbers"},
+              {with("[0, 1, 0]", "[0, 0, 2]"), "not parallel"},
+              {with("[0, 0, -1]", "[0, 0, 0]"), "any length but 0"}};
+  for (const auto& [text, part] : kBad) {
+    const auto view = read_view_file(write_file(directory.path("bad.json"), text));
+    ASSERT_FALSE(view.ok()) << text;
+    const std::string message(view.status().message());
+    EXPECT_NE(message.find("bad.json: "), std::string::npos) << message;
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+}
+
 TEST(Rasterizer, ShowsTheNearestFrontFace) {
   const Mesh mesh = torus_mesh(200, 100, 1.0f, 0.5f);
-  const Camera camera = fit_camera(mesh.positions, View{0, 90}, 1);
+  const Camera camera = fit_camera(mesh.positions, View::from(0, 90), 1);
   const Visibility seen = rasterize(mesh, camera, 301, 301);
   // From above: a ring with a hole, its crest nearest and its normal there towards the viewer.
   EXPECT_EQ(seen.inverse_depth[150 * 301 + 150], 0);

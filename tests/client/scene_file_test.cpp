@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "nearest_name.h"
 #include "test_support.h"
 
 namespace isofield {
@@ -33,6 +34,62 @@ TEST(SceneFile, ErrorsNameFileAndPlace) {
   for (const char* bad : {"", "[]", "{", "null x", "\xff\xfe"}) {
     EXPECT_FALSE(parse_scene_json(bad, "x.json").ok()) << bad;
   }
+}
+
+TEST(SceneFile, ErrorsNameTheNearestFieldAndItsPlace) {
+  const struct {
+    const char* text;
+    std::vector<std::string> parts;
+  } kBad[] = {
+      {"{\"nodes\": [\n {\"sphere\": {\"radus\": 1}, \"name\": \"ball\"}]}",
+       {"x.json:2:14: ", "nodes[0] 'ball'.sphere has no field \"radus\"", "did you mean \"radius\"?",
+        "expected one of center, radius, range, law"}},
+      {R"({"nodes": [{"spere": {}}]})", {"x.json:1:13: ", "nodes[0] has no field", "did you mean \"sphere\""}},
+      {R"({"node": []})", {"x.json:1:2: ", "the scene has no field \"node\"", "did you mean \"nodes\""}},
+      {R"({"nodes": [{"name": "g", "gradient": {"opening": {"presett": "CAMEL"}}}]})",
+       {"nodes[0] 'g'.gradient.opening", "did you mean \"preset\""}},
+      {R"({"nodes": [{"gradient": {"opening": {"preset": "CAMLE"}}}]})",
+       {"nodes[0].gradient.opening.preset = \"CAMLE\"", "one of CAMEL, ORGANIC, CONTACT", "did you mean \"CAMEL\""}},
+      {R"({"nodes": [{"name": "s", "sphere": {"radius": 1, "radius": 2}}]})", {"'s'.sphere.radius stands there twice"}},
+      {R"({"nodes": [{"segment": {"radiusA": 1, "radius_a": 2}}]})", {"segment.radius_a stands there twice"}},
+      {R"({"nodes": [{"sphere": {}, "box": {}}]})", {"nodes[0] has both sphere and box"}},
+      {R"({"nodes": [{"sphere": 3}]})", {"nodes[0].sphere is no object"}},
+      {R"({"nodes": [{"sphere": {"radius": true}}]})", {"nodes[0].sphere.radius = true", "expected a number"}},
+      {R"({"nodes": [{"sphere": {"center": [0, [1], 2]}}]})", {"center[1] = [", "expected a number"}},
+      {R"({"nodes": [{"name": 3, "sphere": {}}]})", {"nodes[0].name = 3: expected a text in quotes"}},
+      {R"({"nodes": [{"btk": {"eliminateBulge": 1}}]})", {"eliminateBulge = 1: expected true or false"}},
+      {"[]", {"x.json:1:1: ", "is no object"}},
+      {"{\"nodes\": [}", {"x.json:1:12: ", "\"}\" where \"{\" was expected"}},
+      {"{\"nodes\": [\n", {"x.json:2:1: ", "the text ends"}},
+  };
+  for (const auto& [text, parts] : kBad) {
+    const auto scene = parse_scene_json(text, "x.json");
+    ASSERT_FALSE(scene.ok()) << text;
+    for (const std::string& part : parts) {
+      EXPECT_TRUE(absl::StrContains(scene.status().message(), part)) << "'" << part << "' in: " << scene.status();
+    }
+  }
+}
+
+TEST(SceneFile, TakesWhatProtobufTakes) {
+  for (const char* text :
+       {R"({"nodes": [{"sphere": {"radius": "1.5", "range": 1e0, "law": "positive", "center": null}}]})",
+        R"({"nodes": [{"segment": {"radius_a": 1, "radiusB": 2}}], "root": null, "unit": "\u00b5m \"x\""})",
+        R"({"nodes": [{"sphere": {"law": 1}, "box": null}]})", "{}", " {\n} "}) {
+    EXPECT_TRUE(parse_scene_json(text, "x.json").ok()) << parse_scene_json(text, "x.json").status();
+  }
+}
+
+TEST(NearestName, IsFoundByFewChanges) {
+  const std::vector<std::string> names{"radius", "range", "center"};
+  EXPECT_EQ(nearest_name("radus", names), "radius");
+  EXPECT_EQ(nearest_name("raduis", names), "radius");
+  EXPECT_EQ(nearest_name("RADIUS", names), "radius");
+  EXPECT_EQ(nearest_name("rnage", names), "range");
+  EXPECT_EQ(nearest_name("colour", names), "");
+  EXPECT_EQ(nearest_name("", names), "");
+  EXPECT_EQ(did_you_mean("centre", names), "; did you mean \"center\"?");
+  EXPECT_EQ(nearest_name(std::string(1000000, 'x'), names), "");
 }
 
 TEST(SceneFile, ReadsFilesOfBothForms) {

@@ -157,7 +157,7 @@ TEST_F(Command, ExitCodesAndTextsTellWhatIsWrong) {
   expect_exit(2, {"nonsense"}, {});
   const Outcome down = run({ISOFIELD_COMMAND, "--server", "unix:" + path("down"), "ls"});
   EXPECT_EQ(down.exit_code, 3);
-  EXPECT_NE(down.errors.find("isofieldd --listen unix:"), std::string::npos) << down.errors;
+  EXPECT_NE(down.errors.find("start isofieldd there or state another --server"), std::string::npos) << down.errors;
   EXPECT_EQ(directory_.listing().find("m.glb"), std::string::npos) << "refused requests write no file";
 }
 

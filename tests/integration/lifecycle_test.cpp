@@ -199,6 +199,81 @@ TEST(Lifecycle, WrongUsageIsTold) {
   }
 }
 
+// Refused with exit code 2 before anything is started, in words that name the place.
+void expect_wrong(const std::vector<std::string>& flags, const std::vector<std::string>& parts) {
+  const Outcome outcome = run(daemon_command(flags));
+  EXPECT_EQ(outcome.exit_code, 2) << parts[0];
+  expect_in(outcome.errors, parts);
+  EXPECT_EQ(outcome.errors.find("listening"), std::string::npos) << outcome.errors;
+}
+
+TEST(Lifecycle, FlagsAreRefusedWithWhatIsAccepted) {
+  expect_wrong({"--max-nodes", "-1"}, {"--max-nodes: expected a whole number within [1, 2147483648], not -1"});
+  expect_wrong({"--max-nodes", "1e6"}, {"--max-nodes: expected a whole number within", "not 1e6"});
+  expect_wrong({"--max-nodes", "18446744073709551616"}, {"--max-nodes: expected a whole number within"});
+  expect_wrong({"--max-threads", "3"}, {"--max-threads: expected a whole number within [4, 65536], not 3"});
+  expect_wrong({"--max-shared-bytes", "0"}, {"--max-shared-bytes: expected a whole number within [1, "});
+  expect_wrong({"--hot-points", "-5"}, {"--hot-points: expected a whole number within [0, "});
+  expect_wrong({"--max-node", "5"}, {"--max-node: no such option; did you mean '--max-nodes'?"});
+  expect_wrong({"--validation=perhaps"}, {"--validation"});
+}
+
+TEST(Lifecycle, AConfigurationFileIsRefusedByLineAndKey) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.path("isofieldd.toml");
+  const struct {
+    std::string text;
+    std::vector<std::string> parts;
+  } kBad[] = {
+      {"max-node = 5\n", {":1: max-node: no such option; did you mean 'max-nodes'?"}},
+      {"# comment\n\nmax-scenes = 5\ncolour = \"red\"\n", {":4: colour: no such option", "--help lists"}},
+      {"config = \"x\"\n", {":1: config: no such option"}},
+      {"max-nodes = -1\n", {":1: max-nodes = -1: expected a whole number within [1, 2147483648]"}},
+      {"max-nodes = 0\n", {":1: max-nodes = 0: expected a whole number within [1, 2147483648]"}},
+      {"max-nodes = \"5\"\n", {":1: max-nodes = \"5\": expected a whole number, without quotes"}},
+      {"max-nodes = 5.5\n", {":1: max-nodes = 5.5: expected a whole number"}},
+      {"max-nodes = true\n", {":1: max-nodes = true: expected a whole number"}},
+      {"max-nodes = many\n", {":1: max-nodes = many: expected a text in quotes, a number, true or false"}},
+      {"max-nodes = 99999999999999999999999\n", {":1: max-nodes = 99999999999999999999999: expected a whole number within"}},
+      {"validation = 1\n", {":1: validation = 1: expected true or false"}},
+      {"validation = \"true\"\n", {":1: validation = \"true\": expected true or false"}},
+      {"device = 5\n", {":1: device = 5: expected a text in quotes"}},
+      {"log-level = \"loud\"\n", {":1: log-level = \"loud\"", "debug"}},
+      {"max-nodes = 5\nmax-scenes = 5\nmax-nodes = 6\n", {":3: max-nodes stands there twice", "line 1"}},
+      {"max-nodes\n", {":1: max-nodes: expected KEY = VALUE"}},
+      {"max-nodes =\n", {":1: max-nodes = : expected a text in quotes"}},
+      {"= 5\n", {":1: = 5: expected KEY = VALUE"}},
+      {"max-nodes = 5 6\n", {":1: max-nodes = 5 6: expected a text in quotes, a number"}},
+      {"device = \"a\" b\n", {":1: b: expected the end of the line"}},
+      {"device = \"a\n", {":1: device = \"a"}},
+      {"[limits]\nmax-nodes = 5\n", {":1: [limits]: this file has no tables"}},
+      {"max-nodes: 5\n", {":1: max-nodes: 5: expected KEY = VALUE"}},
+      {"{\"max-nodes\": 5}\n", {":1: {", "expected KEY = VALUE"}},
+  };
+  for (const auto& [text, parts] : kBad) {
+    write_file(path, text);
+    std::vector<std::string> all = parts;
+    all[0] = path + all[0];
+    expect_wrong({"--config", path}, all);
+  }
+  expect_wrong({"--config", directory.path("none.toml")}, {directory.path("none.toml")});
+  expect_wrong({"--config", directory.path("")}, {directory.path(""), "directory"});
+  write_file(path, "max-nodes = 5\n");
+  expect_wrong({"--config", path, "--max-nodes", "x"}, {"--max-nodes: expected a whole number"});
+}
+
+TEST(Lifecycle, TheEnvironmentIsRefusedByItsVariables) {
+  const auto with = [](const char* variable, const char* value, const std::vector<std::string>& parts) {
+    ::setenv(variable, value, 1);
+    expect_wrong({}, parts);
+    ::unsetenv(variable);
+  };
+  with("ISOFIELD_MAX_NODES", "-1", {"ISOFIELD_MAX_NODES = -1: expected a whole number within [1, 2147483648]"});
+  with("ISOFIELD_VALIDATION", "perhaps", {"ISOFIELD_VALIDATION = perhaps: expected true or false"});
+  with("ISOFIELD_LOG_LEVEL", "loud", {"ISOFIELD_LOG_LEVEL = loud", "debug"});
+  with("ISOFIELD_MAX_NODE", "5", {"ISOFIELD_MAX_NODE belongs to no option; did you mean 'ISOFIELD_MAX_NODES'?"});
+}
+
 TEST(Lifecycle, DevicesAndFoldersThatCannotBeUsedAreRefused) {
   const TemporaryDirectory directory;
   write_file(directory.path("file"), "");
@@ -212,7 +287,9 @@ TEST(Lifecycle, DevicesAndFoldersThatCannotBeUsedAreRefused) {
 
 TEST(Lifecycle, FlagsOverrideTheEnvironmentAndThatTheFile) {
   const TemporaryDirectory directory;
-  write_file(directory.path("isofieldd.toml"), "max-nodes = 1001\nmax-scenes = 11\nmax-grid-points = 5001\n");
+  write_file(directory.path("isofieldd.toml"),
+             "\xef\xbb\xbf# limits\r\n\"max-nodes\" = 1_001 # of a scene\r\nmax-scenes=11\nmax-grid-points = 0x1389\n"
+             "data-dir = '" + directory.path("d#1") + "'\ndevice = \"\"\nshared-memory = false\n\n");
   ::setenv("ISOFIELD_MAX_SCENES", "12", 1);
   ::setenv("ISOFIELD_MAX_GRID_POINTS", "5002", 1);
   Daemon daemon({"--config", directory.path("isofieldd.toml"), "--max-grid-points", "5003"});
@@ -223,6 +300,7 @@ TEST(Lifecycle, FlagsOverrideTheEnvironmentAndThatTheFile) {
   EXPECT_EQ(limits.max_nodes(), 1001u);
   EXPECT_EQ(limits.max_scenes(), 12u);
   EXPECT_EQ(limits.max_grid_points(), 5003u);
+  EXPECT_TRUE(std::filesystem::is_directory(directory.path("d#1"))) << "a # in quotes begins no comment";
 }
 
 TEST(Lifecycle, CompiledShadersOutliveTheProcess) {

@@ -94,17 +94,17 @@ int Process::wait() {
   return exit_code_;
 }
 
-std::string Process::wait_for_error_line(const std::string& text) {
+std::string Process::wait_for_line(const Stream& stream, const std::string& text) {
   std::unique_lock lock(mutex_);
   for (;;) {
-    const std::string& all = errors_.text;
+    const std::string& all = stream.text;
     if (const std::size_t at = all.find(text); at != std::string::npos) {
       const std::size_t end = all.find('\n', at);
       const std::size_t before = all.rfind('\n', at);
       const std::size_t begin = before == std::string::npos ? 0 : before + 1;
       if (end != std::string::npos) return all.substr(begin, end - begin);
     }
-    if (errors_.is_closed) return "";
+    if (stream.is_closed) return "";
     changed_.wait(lock);
   }
 }

@@ -28,7 +28,9 @@ class Process {
   int wait();
   // Blocks until it has written a line that holds `text` to standard error, and returns the line; "" when it has closed
   // the stream without one.
-  std::string wait_for_error_line(const std::string& text);
+  std::string wait_for_error_line(const std::string& text) { return wait_for_line(errors_, text); }
+  // The same of standard output.
+  std::string wait_for_output_line(const std::string& text) { return wait_for_line(output_, text); }
   // All that it has written so far.
   std::string output() const;
   std::string errors() const;
@@ -41,6 +43,7 @@ class Process {
     std::thread reader;
   };
   void read_all(Stream& stream);
+  std::string wait_for_line(const Stream& stream, const std::string& text);
 
   pid_t pid_ = -1;
   int exit_code_ = -1;  // -1: not waited for

@@ -32,6 +32,12 @@ v1::Scene two_balls() {
     {"max": {"children": ["left", "#1"]}}])");
 }
 
+// Nested so that what is far from the balls may be inside.
+constexpr char kUnbounded[] = R"([
+    {"name": "a", "sphere": {"radius": 1, "law": "SIGNED"}}, {"name": "b", "sphere": {"radius": 2, "law": "SIGNED"}},
+    {"name": "both", "superelliptic": {"children": ["a", "b"], "exponent": 2, "ranges": [1]}},
+    {"pasko": {"children": ["both", "a"], "a0": -5, "a1": 1, "a2": 1}}])";
+
 TEST(Surface, RaysHitBallsAndNameThem) {
   Client c = client();
   v1::CastRaysRequest request;
@@ -104,6 +110,47 @@ TEST(Surface, SlicesAreTheSameAsTheirPoints) {
   ASSERT_EQ(slice->curves.size(), 1u);
 }
 
+TEST(Surface, ASliceSpansTheSupportsByDefault) {
+  Client c = client();
+  // The box of its support is [-2, 2] x [-3, 1] x [-1, 7].
+  v1::SliceRequest request;
+  *request.mutable_scene() = inline_scene(test_support::scene_of_nodes(
+      R"({"ellipsoid": {"center": [0, -1, 3], "semi_axes": [1, 1, 2], "range": 1}})"));
+  auto slice = c.slice(request);
+  ASSERT_TRUE(slice.ok()) << slice.status();
+  EXPECT_EQ(slice->counts, (std::array<std::uint64_t, 2>{512, 512}));
+  EXPECT_NEAR(slice->origin[0], -2, 1e-4);
+  EXPECT_NEAR(slice->origin[1], -3, 1e-4);
+  EXPECT_NEAR(slice->origin[2], 3, 1e-6);
+  EXPECT_NEAR(slice->spacing[0], 4.0 / 511, 1e-6);
+  EXPECT_EQ(slice->values.size(), 512u * 512);
+  EXPECT_GT(*std::max_element(slice->values.begin(), slice->values.end()), 0.9) << "through the middle";
+
+  // A plane through the long axis, of which only the counts or only the spacing are stated.
+  for (const double x : {0, 1, 0}) request.add_u(x);
+  for (const double x : {0, 0, 1}) request.add_v(x);
+  slice = c.slice(request);
+  ASSERT_TRUE(slice.ok()) << slice.status();
+  EXPECT_EQ(slice->counts[1], 512u);
+  EXPECT_LT(slice->counts[0], 512u);
+  request.add_counts(11);
+  request.add_counts(5);
+  slice = c.slice(request);
+  ASSERT_TRUE(slice.ok()) << slice.status();
+  EXPECT_NEAR(slice->spacing[0], 0.4, 1e-6);
+  request.clear_counts();
+  request.add_spacing(0.5);
+  slice = c.slice(request);
+  ASSERT_TRUE(slice.ok()) << slice.status();
+  EXPECT_EQ(slice->counts[0], 9u);
+
+
+  v1::SliceRequest unbounded;
+  *unbounded.mutable_scene() = inline_scene(test_support::scene_of_nodes(kUnbounded));
+  const absl::Status refused = c.slice(unbounded).status();
+  EXPECT_NE(refused.message().find("origin, spacing and counts: expected"), std::string::npos) << refused;
+}
+
 TEST(Surface, BallsMeasureWhatTheFormulasSay) {
   Client c = client();
   v1::MeshRequest request;
@@ -149,6 +196,14 @@ TEST(Surface, TheCommandLineAsksTheSame) {
     EXPECT_EQ(o.exit_code, 0) << name << ": " << o.errors;
     EXPECT_TRUE(std::ifstream(directory.path(name)).good()) << name;
   }
+  o = isofield({"--json", "slice", scene, "-o", directory.path("whole.png")});
+  EXPECT_EQ(o.exit_code, 0) << o.errors;
+  EXPECT_NE(o.output.find("\"counts\":[512,"), std::string::npos) << o.output;
+  write_file(directory.path("far.csv"), "500,0,0\n0.9,0,0\n");
+  o = isofield({"project", scene, "--points", directory.path("far.csv")});
+  EXPECT_NE(o.output.find("residual,out_of_reach\n500,0,0,"), std::string::npos) << o.output;
+  EXPECT_NE(o.output.find(",0,inf,1\n"), std::string::npos) << o.output;
+  EXPECT_NE(o.errors.find("note: 1 of 2 points are out of reach"), std::string::npos) << o.errors;
   EXPECT_EQ(isofield({"ray", scene, "--origins", points}).exit_code, 2);
   EXPECT_EQ(isofield({"ray", scene, "--origins", points, "--direction", "0,0,0"}).exit_code, 1);
   EXPECT_EQ(isofield({"inside", scene, "--points", directory.path("none.csv")}).exit_code, 4);
@@ -201,15 +256,20 @@ TEST(Surface, WrongRequestsAreRefused) {
     v1::SliceResponse response;
     return stub->Slice(&context, request, &response);
   };
-  expect_refused(slice(plane), StatusCode::INVALID_ARGUMENT, {"origin holds 0"});
+  plane.add_origin(0);
+  expect_refused(slice(plane), StatusCode::INVALID_ARGUMENT, {"origin holds 1"});
+  plane.clear_origin();
   for (const double x : {0, 0, 0}) plane.add_origin(x);
   for (const double x : {1, 2, 3}) plane.add_u(x);
   for (const double x : {2, 4, 6}) plane.add_v(x);
   expect_refused(slice(plane), StatusCode::INVALID_ARGUMENT, {"v = (2, 4, 6)", "parallel"});
   plane.set_v(0, 5);
-  expect_refused(slice(plane), StatusCode::INVALID_ARGUMENT, {"spacing holds 0"});
-  plane.add_spacing(0.1);
-  expect_refused(slice(plane), StatusCode::INVALID_ARGUMENT, {"counts holds 0"});
+  for (int i = 0; i < 3; ++i) plane.add_spacing(0.1);
+  expect_refused(slice(plane), StatusCode::INVALID_ARGUMENT, {"spacing holds 3"});
+  plane.mutable_spacing()->Truncate(1);
+  plane.add_counts(3);
+  expect_refused(slice(plane), StatusCode::INVALID_ARGUMENT, {"counts holds 1"});
+  plane.clear_counts();
   plane.add_counts(std::numeric_limits<std::uint64_t>::max());
   plane.add_counts(std::numeric_limits<std::uint64_t>::max());
   expect_refused(slice(plane), StatusCode::RESOURCE_EXHAUSTED, {"counts"});

@@ -129,7 +129,7 @@ TEST(OperatorReader, ControlPointsNameTheOneThatIsWrong) {
 TEST(OperatorReader, RangedBlendsNameTheTermThatIsWrong) {
   v1::Operator message;
   v1::Btk& b = *message.mutable_btk();
-  expect_refused(message, {"ranges = []"});
+  expect_refused(message, {"ranges is missing: expected one range"});
   b.add_ranges(1);
   b.add_ranges(-1);
   expect_refused(message, {"ranges[1] = -1", "length > 0"});
@@ -175,7 +175,7 @@ TEST(OperatorReader, MixedLawsAreRefusedWithThePathOfTheNode) {
   refused(balls + R"({"name": "u", "max": {"children": ["s", "p"]}}])", {"'p' yields a POSITIVE field"});
   refused(balls + R"({"soften": {"child": "p", "range": 1}}])", {"nodes[2].child", "expected a SIGNED one"});
   refused(balls + R"({"harden": {"child": "s"}}])", {"nodes[2].child", "expected a POSITIVE one"});
-  refused(balls + R"({"soften": {"child": "s", "range": 0}}])", {"nodes[2].range = 0"});
+  refused(balls + R"({"soften": {"child": "s", "range": 0}}])", {"nodes[2].range is missing or 0"});
   refused(R"([{"sphere": {"radius": 1, "range": 1, "law": "SIGNED"}}])", {"range = 1", "SIGNED field has no range"});
   refused(balls + R"({"bt2": {"children": ["s"], "r1": 1, "r2": 1}}])", {"[1 children]", "exactly 2"});
   refused(balls + R"({"btk": {"children": ["s"], "ranges": [1]}}])", {"[1 children]", "2 to 16"});

@@ -48,7 +48,8 @@ std::string explain_extra(const std::vector<const CLI::App*>& chain, const std::
 // The option or argument that CLI11's message speaks of; nullptr: of none.
 const CLI::Option* option_in(const std::string& message, const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
-    std::vector<std::string> names{option->get_name(true)};
+    std::vector<std::string> names;
+    if (option->get_positional()) names.push_back(option->get_name(true));
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (const std::string& name : names) {
       for (const char* const end : {" ", ":"}) {

@@ -1,6 +1,7 @@
 #include "render/camera.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -12,6 +13,11 @@ constexpr float kMargin = 1.08f;
 
 Vector to_vector(const std::array<double, 3>& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+// Of degrees; exact at right angles.
+double cosine(double degrees) {
+  return std::fmod(degrees, 180) == 90 || std::fmod(degrees, 180) == -90 ? 0 : std::cos(degrees * kRadians);
 }
 
 // The largest of each expression over all positions; see place_camera.
@@ -63,12 +69,11 @@ void place_camera(std::span<const float> positions, const View& view, Camera& ca
 }  // namespace
 
 void View::turn_to(double azimuth, double elevation) {
-  const double a = azimuth * kRadians, e = elevation * kRadians;
-  // Exact where it should be: cos(90 degrees) is not.
-  const double level = std::abs(elevation) == 90 ? 0 : std::cos(e);
-  direction = {-std::sin(a) * level, -std::sin(e), -std::cos(a) * level};
+  const double level = cosine(elevation), rise = cosine(elevation - 90);
+  const double right = cosine(azimuth - 90), front = cosine(azimuth);
+  direction = {0 - right * level, 0 - rise, 0 - front * level};
   // From straight above the front is at the bottom of the picture.
-  up = level == 0 ? std::array{-std::sin(e) * std::sin(a), 0.0, -std::sin(e) * std::cos(a)} : std::array{0.0, 1.0, 0.0};
+  up = level == 0 ? std::array{0 - rise * right, 0.0, 0 - rise * front} : std::array{0.0, 1.0, 0.0};
 }
 
 View View::from(double azimuth, double elevation) {
