@@ -11,8 +11,8 @@ namespace isofield::base {
 // Characters of a name that errors repeat.
 inline constexpr std::size_t kQuotedCharacters = 80;
 
-// `text` as valid UTF-8 without control characters: these and bytes that are no UTF-8 become escapes such as \n and
-// \x1b. It is cut, and ends with "...", where it would have more characters, or bytes, than these; an escape has several.
+// `text` as valid UTF-8 without control characters: these, and bytes that are no UTF-8, become escapes such as \n and
+// \x1b. Where it would have more characters or bytes than these it is cut and ends with "..."; an escape has several.
 std::string printable(absl::string_view text, std::size_t most_characters,
                       std::size_t most_bytes = std::string::npos);
 

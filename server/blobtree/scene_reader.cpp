@@ -226,8 +226,8 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
     return absl::InvalidArgumentError(absl::StrCat("nodes: ", count, " nodes, expected at most ", limits.max_nodes));
   }
   if (message.unit().size() > kMaxNameCharacters) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("unit = ", base::quoted(message.unit()), ": expected at most ", kMaxNameCharacters, " characters"));
+    return absl::InvalidArgumentError(absl::StrCat("unit = ", base::quoted(message.unit()), ": expected at most ",
+                                                   kMaxNameCharacters, " characters"));
   }
   Scene scene;
   scene.nodes.resize(count);

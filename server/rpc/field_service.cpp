@@ -17,7 +17,7 @@
 namespace isofield::rpc {
 namespace {
 
-// Points of one message of a grid's answer, 1 to 4 MiB, where the client takes that.
+// Points of one message of a grid's answer, 1 to 4 MiB, where the client takes that; more where layers are large.
 constexpr std::uint64_t kGridSlab = 1u << 18;
 
 absl::Status client_gone() {
@@ -147,11 +147,11 @@ grpc::Status FieldService::EvaluateGrid(grpc::ServerContext* context, const v1::
   const auto [nx, ny, nz] = lattice->cells;
   const std::uint64_t layer = std::uint64_t{nx} * ny;
   const std::uint32_t width = engine::components(*quantity);
-  const std::uint64_t most =
-      std::min({limit->rows(width * sizeof(float)), limits_.max_points_per_message, kGridSlab});
+  // Points of a message.
+  const std::uint64_t most = std::min(limit->rows(width * sizeof(float)), limits_.max_points_per_message);
   const auto cancelled = [&] { return context->IsCancelled(); };
   // Whole layers of bricks are evaluated at once, at least one.
-  const std::uint64_t bricks = std::max<std::uint64_t>(most / layer / blobtree::kBrickCells, 1);
+  const std::uint64_t bricks = std::max<std::uint64_t>(std::min(most, kGridSlab) / layer / blobtree::kBrickCells, 1);
   const auto step = static_cast<std::uint32_t>(std::min<std::uint64_t>(bricks * blobtree::kBrickCells, nz + 3));
   v1::EvaluateGridResponse response;
   std::vector<float> several;  // layers that take more than one message

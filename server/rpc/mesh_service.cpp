@@ -162,8 +162,8 @@ grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::
 
 MeshService::MeshService(const SceneSource& scenes, SceneEditor& editor, engine::Engine& engine, const Limits& limits)
     : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits) {
-  const int method =
-      v1::TrackMeshRequest::descriptor()->file()->FindServiceByName("MeshService")->FindMethodByName("TrackMesh")->index();
+  const auto* service = v1::TrackMeshRequest::descriptor()->file()->FindServiceByName("MeshService");
+  const int method = service->FindMethodByName("TrackMesh")->index();
   MarkMethodStreamed(method, new grpc::internal::BidiStreamingHandler<MeshService, grpc::ByteBuffer,
                                                                       v1::TrackMeshResponse>(
                                  [](MeshService* service, grpc::ServerContext* context, TrackMeshStream* stream) {

@@ -1,8 +1,8 @@
-"""Asks a daemon with grpcurl, which knows nothing but what reflection tells it: health, services, fields, scenes, errors.
+"""Asks a daemon with grpcurl, which knows what reflection tells it and no more: health, services, fields, scenes, errors.
 
 Usage: grpcurl_test.py ISOFIELDD FOLDER
-Where grpcurl is not installed, it is built in FOLDER by go; without go, or where its modules are out of reach, the test is
-skipped.
+Where grpcurl is not installed, it is built in FOLDER by go; without go, or where its modules are out of reach, the test
+is skipped.
 """
 
 import base64
@@ -82,7 +82,8 @@ class Grpcurl:
 
 def check_health(grpcurl):
     assert grpcurl.call("grpc.health.v1.Health/Check") == [{"status": "SERVING"}]
-    assert grpcurl.call("grpc.health.v1.Health/Check", {"service": "isofield.v1.MeshService"}) == [{"status": "SERVING"}]
+    of_one = {"service": "isofield.v1.MeshService"}
+    assert grpcurl.call("grpc.health.v1.Health/Check", of_one) == [{"status": "SERVING"}]
     grpcurl.refused("grpc.health.v1.Health/Check", {"service": "none"}, "NotFound")
 
 

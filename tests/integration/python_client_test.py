@@ -1,5 +1,5 @@
-"""Evaluates and meshes a sphere from Python with nothing but the .proto files, against NumPy's own formulas. No option of
-the channel is set: messages larger than gRPC's default of 4 MiB would not be received.
+"""Evaluates and meshes a sphere from Python with nothing but the .proto files, against NumPy's own formulas. No option
+of the channel is set: messages larger than gRPC's default of 4 MiB would not be received.
 
 Usage: python_client_test.py ISOFIELDD PROTOC PROTO_FOLDER
 """

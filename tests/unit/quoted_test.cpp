@@ -9,18 +9,17 @@ namespace isofield {
 namespace {
 
 using base::printable;
-using base::quoted;
 
 TEST(Quoted, PlainTextStaysAsItIs) {
-  EXPECT_EQ(quoted(""), "''");
-  EXPECT_EQ(quoted("arm/upper 'left' \\ %"), "'arm/upper 'left' \\ %'");
-  EXPECT_EQ(quoted("Zürich 東京 🐟"), "'Zürich 東京 🐟'");
+  EXPECT_EQ(base::quoted(""), "''");
+  EXPECT_EQ(base::quoted("arm/upper 'left' \\ %"), "'arm/upper 'left' \\ %'");
+  EXPECT_EQ(base::quoted("Zürich 東京 🐟"), "'Zürich 東京 🐟'");
 }
 
 TEST(Quoted, ControlCharactersAreEscaped) {
-  EXPECT_EQ(quoted("a\nb\r\tc"), "'a\\nb\\r\\tc'");
-  EXPECT_EQ(quoted(std::string("\0\x1b[31m\x7f", 7)), "'\\x00\\x1b[31m\\x7f'");
-  EXPECT_EQ(quoted("\xc2\x85 \xe2\x80\xa8"), "'\\xc2\\x85 \\xe2\\x80\\xa8'") << "C1, and the separator of lines";
+  EXPECT_EQ(base::quoted("a\nb\r\tc"), "'a\\nb\\r\\tc'");
+  EXPECT_EQ(base::quoted(std::string("\0\x1b[31m\x7f", 7)), "'\\x00\\x1b[31m\\x7f'");
+  EXPECT_EQ(base::quoted("\xc2\x85 \xe2\x80\xa8"), "'\\xc2\\x85 \\xe2\\x80\\xa8'") << "C1, and the separator of lines";
 }
 
 TEST(Quoted, BytesThatAreNoUtf8AreEscaped) {
@@ -33,18 +32,18 @@ TEST(Quoted, BytesThatAreNoUtf8AreEscaped) {
                                      {"\xed\xa0\x80", "'\\xed\\xa0\\x80'"},          // half of a surrogate pair
                                      {"\xf4\x90\x80\x80", "'\\xf4\\x90\\x80\\x80'"}  // beyond Unicode
                                     }) {
-    EXPECT_EQ(quoted(bytes), shown);
+    EXPECT_EQ(base::quoted(bytes), shown);
   }
 }
 
 TEST(Quoted, LongNamesAreCutAt80Characters) {
-  EXPECT_EQ(quoted(std::string(80, 'n')), "'" + std::string(80, 'n') + "'");
-  EXPECT_EQ(quoted(std::string(81, 'n')), "'" + std::string(80, 'n') + "...'");
-  EXPECT_EQ(quoted(std::string(1 << 20, 'n')), "'" + std::string(80, 'n') + "...'");
+  EXPECT_EQ(base::quoted(std::string(80, 'n')), "'" + std::string(80, 'n') + "'");
+  EXPECT_EQ(base::quoted(std::string(81, 'n')), "'" + std::string(80, 'n') + "...'");
+  EXPECT_EQ(base::quoted(std::string(1 << 20, 'n')), "'" + std::string(80, 'n') + "...'");
   std::string fish, shown;
   for (int i = 0; i < 100; ++i) fish += "🐟";
   for (int i = 0; i < 80; ++i) shown += "🐟";
-  EXPECT_EQ(quoted(fish), "'" + shown + "...'");
+  EXPECT_EQ(base::quoted(fish), "'" + shown + "...'");
   EXPECT_EQ(printable("abc\n", 4), "abc...") << "an escape is not cut in two";
 }
 
