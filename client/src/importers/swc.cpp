@@ -58,11 +58,11 @@ absl::Status import_swc(const std::string& text, const ImportOptions& options, I
   std::vector<SwcSample> samples = read_swc_samples(text, scale, report);
   if (samples.empty()) return absl::InvalidArgumentError("no usable line \"id type x y z radius parent\"");
   link_parents(samples, report);
-  const std::vector<int> order = parents_first(samples);
+  std::vector<int> order = parents_first(samples);
   note_trees(samples, report);
   const Somata somata = find_somata(order, samples, report);
   if (options.unit.empty()) note_size(samples, report);
-  if (auto status = mend_radii(order, somata.outlines, options, samples, report); !status.ok()) return status;
+  if (auto status = mend_radii(somata.outlines, options, order, samples, report); !status.ok()) return status;
   make_pieces(samples, order, somata, options, imported);
   return absl::OkStatus();
 }

@@ -44,42 +44,11 @@ Solid ellipsoid(const Contour& contour) {
   return solid;
 }
 
-// What makes circles of the ellipses of two neighbouring contours, and moves them so far apart that the round ends of a
-// segment between them stand out by a quarter of the distance only.
-struct Stretch {
-  double aside = 1, up = 1;
-};
-
-const Contour& wider(const Contour& a, const Contour& b) {
-  return a.major_length * a.minor_length >= b.major_length * b.minor_length ? a : b;
-}
-
-double round_radius(const Contour& contour, double aside) {
-  return std::sqrt(contour.major_length * contour.minor_length * aside);
-}
-
-Stretch stretch_between(const Contour& below, const Contour& above) {
-  // The map must stay far from one that the server refuses.
-  constexpr double kMost = 1e3;
-  const Contour& widest = wider(below, above);
-  Stretch stretch;
-  stretch.aside = std::min(kMost, widest.major_length / widest.minor_length);
-  const double distance = std::abs(dot(widest.normal, subtract(above.center, below.center)));
-  stretch.up = std::clamp(4 * round_radius(widest, stretch.aside) / distance, 1.0, kMost);
-  return stretch;
-}
-
-Solid hull(const Contour& below, const Contour& above) {
-  const Stretch stretch = stretch_between(below, above);
-  const Contour& widest = wider(below, above);
-  Solid solid;
-  solid.origin = widest.center;
-  solid.to_local = {widest.major, scale(widest.minor, stretch.aside), scale(widest.normal, stretch.up)};
-  solid.a = solid.local(below.center);
-  solid.b = solid.local(above.center);
-  solid.radius_a = round_radius(below, stretch.aside);
-  solid.radius_b = round_radius(above, stretch.aside);
-  return solid;
+// The hull of the balls of a contour and the one above.
+Solid hull(const ContourStack& stack, std::size_t below) {
+  const auto& a = stack.balls[below];
+  const auto& b = stack.balls[below + 1];
+  return {stack.origin, stack.to_local, a.center, b.center, a.radius, b.radius};
 }
 
 // Adds a node that places the last node of the scene: the columns of its matrix are `axes`.
@@ -119,20 +88,36 @@ void add_ellipsoid(const Contour& contour, const ImportOptions& options, v1::Sce
   add_transform({contour.major, contour.minor, contour.normal}, contour.center, scene);
 }
 
-void add_hull(const Contour& below, const Contour& above, const ImportOptions& options, v1::Scene& scene) {
-  const Solid solid = hull(below, above);
-  const Stretch stretch = stretch_between(below, above);
-  const Contour& widest = wider(below, above);
+void add_hull(const ContourStack& stack, std::size_t below, const ImportOptions& options, v1::Scene& scene) {
+  const Solid solid = hull(stack, below);
   v1::Segment& segment = *scene.add_nodes()->mutable_segment();
   set(solid.a, *segment.mutable_a());
   set(solid.b, *segment.mutable_b());
   segment.set_radius_a(solid.radius_a);
   segment.set_radius_b(solid.radius_b);
-  // The map shortens the range across the planes, where it must remain a length that the server takes.
+  // The map may shorten the range, which must remain a length that the server takes.
   const double range = range_of(options, kSwcRangeFactor, std::max(solid.radius_a, solid.radius_b));
-  segment.set_range(std::max(range, 2 * kLeastLength * std::max(stretch.aside, stretch.up)));
-  add_transform({widest.major, scale(widest.minor, 1 / stretch.aside), scale(widest.normal, 1 / stretch.up)},
-                solid.origin, scene);
+  const double shortest = std::min({1.0, length(stack.axes[1]), length(stack.axes[2])});
+  segment.set_range(std::max(range, 2 * kLeastLength / shortest));
+  add_transform(stack.axes, stack.origin, scene);
+}
+
+// Whether two balls are one but for a hundredth.
+bool is_same(const ContourStack::Ball& a, const ContourStack::Ball& b) {
+  return distance(a.center, b.center) + std::abs(a.radius - b.radius) <= 0.01 * a.radius;
+}
+
+void add_stack(const Soma& soma, const std::vector<SwcSample>& samples, const ImportOptions& options,
+               v1::Scene& scene) {
+  const auto& balls = soma.stack.balls;
+  std::size_t added = 0;
+  for (std::size_t i = 0; i + 1 < balls.size(); ++i) {
+    // Contours of an ellipsoid share a ball, which one piece holds.
+    if (i > 0 && is_same(balls[added], balls[i]) && is_same(balls[added], balls[i + 1])) continue;
+    added = i + 1;
+    add_hull(soma.stack, i, options, scene);
+    scene.mutable_nodes()->rbegin()->set_name(piece_name(samples[soma.contours[i + 1].first_point]));
+  }
 }
 
 // The two contours between which a point lies, or the nearest two: the index of the lower one.
@@ -161,7 +146,7 @@ Joint join_contours(const Soma& soma, const Vector3& outer) {
   const double part = dot(below.normal, subtract(outer, below.center)) / rise;
   joint.target = between(below.center, above.center, std::clamp(part, 0.0, 1.0));
   joint.width = std::max(below.minor_length, above.minor_length);
-  joint.solids = {hull(below, above)};
+  joint.solids = {hull(soma.stack, i)};
   return joint;
 }
 
@@ -211,11 +196,7 @@ void add_soma(const Soma& soma, const std::vector<SwcSample>& samples, const Imp
     add_ellipsoid(soma.contours.front(), options, scene);
     scene.mutable_nodes()->rbegin()->set_name(piece_name(first));
   } else {
-    for (std::size_t i = 0; i + 1 < soma.contours.size(); ++i) {
-      const Contour& above = soma.contours[i + 1];
-      add_hull(soma.contours[i], above, options, scene);
-      scene.mutable_nodes()->rbegin()->set_name(piece_name(samples[above.first_point]));
-    }
+    add_stack(soma, samples, options, scene);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <absl/strings/str_cat.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "importers/import_report.h"
@@ -32,40 +33,52 @@ std::vector<int> nearest_with_radius(const std::vector<int>& order, const std::v
   return nearest;
 }
 
+// A root that the file states, rather than one whose parent is missing, dropped or beyond a cut.
+bool begins_a_tree(const SwcSample& root) {
+  return root.parent_id < 0 || root.parent_id == root.id;
+}
+
 }  // namespace
 
-absl::Status mend_radii(const std::vector<int>& order, const std::vector<bool>& outlines, const ImportOptions& options,
+absl::Status mend_radii(const std::vector<bool>& outlines, const ImportOptions& options, std::vector<int>& order,
                         std::vector<SwcSample>& samples, ImportReport& report) {
   constexpr char kNone[] = "sample without a radius > 0 that a scene can hold: ";
   const std::vector<int> nearest = nearest_with_radius(order, outlines, samples);
+  // Of each sample: whether its tree begins at a sample that has lost its parent; and whether it is dropped.
+  std::vector<bool> is_lost(samples.size(), false), is_dropped(samples.size(), false);
   for (const int i : order) {
     SwcSample& sample = samples[i];
+    const int parent = sample.parent;
+    const auto remark = [&](absl::string_view what, bool damage) {
+      note(report, what, sample.line_number, sample.line, damage);
+    };
+    is_lost[i] = parent == kNoParent ? !begins_a_tree(sample) : is_lost[parent];
+    is_dropped[i] = parent != kNoParent && is_dropped[parent];
     if (outlines[i]) continue;
     if (sample.radius > 0) {
       if (sample.radius < options.min_radius.value_or(0)) {
         sample.radius = *options.min_radius;
-        note(report, "sample thinner than --min-radius: it gets that radius", sample.line_number, sample.line, false);
+        remark("sample thinner than --min-radius: it gets that radius", false);
       }
-      continue;
-    }
-    // Outlines without a radius have none to hand on.
-    const bool has_parent = sample.parent != kNoParent && samples[sample.parent].radius > 0;
-    if (options.min_radius) {
+    } else if (options.min_radius) {
       sample.radius = *options.min_radius;
-      note(report, absl::StrCat(kNone, "it gets --min-radius"), sample.line_number, sample.line);
-    } else if (has_parent) {
-      sample.radius = samples[sample.parent].radius;
-      note(report, absl::StrCat(kNone, "it gets its parent's"), sample.line_number, sample.line);
+      remark(absl::StrCat(kNone, "it gets --min-radius"), true);
+    } else if (parent != kNoParent && samples[parent].radius > 0) {
+      sample.radius = samples[parent].radius;
+      remark(absl::StrCat(kNone, "it gets its parent's"), true);
     } else if (nearest[i] != kNoParent) {
       sample.radius = samples[nearest[i]].radius;
-      note(report, absl::StrCat(kNone, "a first sample, it gets that of its nearest descendant that has one"),
-           sample.line_number, sample.line);
+      remark(absl::StrCat(kNone, "no parent has one, it gets that of its nearest descendant that has one"), true);
+    } else if (is_lost[i]) {
+      is_dropped[i] = true;
+      remark("sample dropped: its tree has lost its parent and has no radius > 0; --min-radius gives it one", true);
     } else {
       return absl::InvalidArgumentError(absl::StrCat(
           quote_line(sample.line_number, sample.line), ": neither this first sample of a tree nor one that follows it ",
           "has a radius > 0; expected one, or a radius to use in its place (--min-radius)"));
     }
   }
+  order.erase(std::remove_if(order.begin(), order.end(), [&](int i) { return is_dropped[i]; }), order.end());
   return absl::OkStatus();
 }
 

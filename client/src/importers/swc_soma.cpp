@@ -153,6 +153,12 @@ class SomaFinder {
       std::stable_sort(soma.contours.begin(), soma.contours.end(), [&](const Contour& a, const Contour& b) {
         return dot(normal, a.center) < dot(normal, b.center);
       });
+      // Of two outlines at one depth, such as a nucleus within its cell, the first stands for both.
+      const auto is_same_depth = [&](const Contour& a, const Contour& b) {
+        return dot(normal, subtract(b.center, a.center)) <= 1e-3 * std::min(a.minor_length, b.minor_length);
+      };
+      soma.contours.erase(std::unique(soma.contours.begin(), soma.contours.end(), is_same_depth), soma.contours.end());
+      if (soma.contours.size() > 1) soma.stack = stack_contours(soma.contours);
     }
   }
 
@@ -181,7 +187,7 @@ class SomaFinder {
       case SomaForm::kContours:
         return remark(soma.contours.size() == 1
                           ? "soma outlined by a contour: made an ellipsoid, whose third axis is the mean of the two"
-                          : "soma outlined by contours at several depths: made the hull of each two neighbours, blended");
+                          : "soma outlined by contours at several depths: made the blended hull of balls that touch them");
       case SomaForm::kFrusta:
         break;
     }

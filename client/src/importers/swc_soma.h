@@ -4,6 +4,7 @@
 
 #include "importers/swc_contour.h"
 #include "importers/swc_sample.h"
+#include "importers/swc_stack.h"
 #include "isofield/import.h"
 
 namespace isofield {
@@ -25,6 +26,8 @@ struct Soma {
   // Indices, parents first.
   std::vector<int> members;
   std::vector<Contour> contours;
+  // Of several contours.
+  ContourStack stack;
 };
 
 struct Somata {

@@ -1,0 +1,131 @@
+#include "importers/swc_stack.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isofield {
+namespace {
+
+// The server refuses maps of a condition number above 1e6; this bounds either stretch.
+constexpr double kMostStretch = 500;
+
+// Axes and aspect of the mean of the ellipses, each weighed by its area.
+void set_frame(const std::vector<Contour>& contours, ContourStack& stack, double& aspect) {
+  const Contour& widest = *std::max_element(contours.begin(), contours.end(), [](const Contour& a, const Contour& b) {
+    return a.major_length * a.minor_length < b.major_length * b.minor_length;
+  });
+  double xx = 0, xy = 0, yy = 0;
+  const auto add_axis = [&](const Vector3& axis, double weight) {
+    const double x = dot(axis, widest.major), y = dot(axis, widest.minor);
+    xx += weight * x * x;
+    xy += weight * x * y;
+    yy += weight * y * y;
+  };
+  for (const Contour& contour : contours) {
+    add_axis(contour.major, contour.major_length * contour.major_length);
+    add_axis(contour.minor, contour.minor_length * contour.minor_length);
+  }
+  const double half_sum = (xx + yy) / 2, half_difference = std::hypot((xx - yy) / 2, xy);
+  const double turn = half_difference > 1e-9 * half_sum ? std::atan2(2 * xy, xx - yy) / 2 : 0;
+  const double ratio = std::sqrt((half_sum + half_difference) / std::max(half_sum - half_difference, 1e-300));
+  aspect = std::min(ratio, kMostStretch);
+  stack.origin = widest.center;
+  stack.axes = {add(scale(widest.major, std::cos(turn)), scale(widest.minor, std::sin(turn))),
+                subtract(scale(widest.minor, std::cos(turn)), scale(widest.major, std::sin(turn))), widest.normal};
+}
+
+struct Ring {
+  double depth;
+  double squared_radius;
+};
+
+// The slope of the parabola through three rings at one of them; of two rings, of the line.
+double slope_at(const std::vector<Ring>& rings, std::size_t i) {
+  const auto secant = [&](std::size_t a, std::size_t b) {
+    return (rings[b].squared_radius - rings[a].squared_radius) / (rings[b].depth - rings[a].depth);
+  };
+  if (rings.size() == 2) return secant(0, 1);
+  const std::size_t m = std::clamp<std::size_t>(i, 1, rings.size() - 2);
+  const double below = secant(m - 1, m), above = secant(m, m + 1);
+  const double curvature = (above - below) / (rings[m + 1].depth - rings[m - 1].depth);
+  return below + curvature * (2 * rings[i].depth - rings[m - 1].depth - rings[m].depth);
+}
+
+// How much the depth is stretched where the rings are those of an ellipsoid, by the mean curvature of their squared
+// radii: minus the square of the stretch.
+double roundest_stretch(const std::vector<Ring>& rings) {
+  const Ring& first = rings.front();
+  const Ring& last = rings.back();
+  const double height = last.depth - first.depth;
+  if (rings.size() == 2) return std::sqrt(std::abs(last.squared_radius - first.squared_radius)) / height;
+  // Least squares of the rise above the line from the first ring to the last against -(d - d0) (d - d1).
+  double product = 0, square = 0;
+  for (const Ring& ring : rings) {
+    const double t = (ring.depth - first.depth) / height;
+    const double line = first.squared_radius + t * (last.squared_radius - first.squared_radius);
+    const double arch = t * (1 - t) * height * height;
+    product += arch * (ring.squared_radius - line);
+    square += arch * arch;
+  }
+  return std::sqrt(std::max(0.0, product / square));
+}
+
+// Depth and radius of a ring's ball, in the stretched depth.
+struct Touching {
+  double depth;
+  double radius;
+};
+
+std::vector<Touching> touching_balls(const std::vector<Ring>& rings, double stretch) {
+  std::vector<Touching> balls;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const double depth = stretch * rings[i].depth;
+    // A ball about c touches the ring where the squared radius falls off by 2 (depth - c).
+    const double middle = std::clamp(depth + slope_at(rings, i) / (2 * stretch), stretch * rings.front().depth,
+                                     stretch * rings.back().depth);
+    balls.push_back({middle, std::sqrt(rings[i].squared_radius + (depth - middle) * (depth - middle))});
+  }
+  return balls;
+}
+
+bool ends_in_time(const std::vector<Ring>& rings, const std::vector<Touching>& balls, double stretch) {
+  const std::size_t last = rings.size() - 1;
+  const double low = 2 * rings[0].depth - rings[1].depth, high = 2 * rings[last].depth - rings[last - 1].depth;
+  return std::all_of(balls.begin(), balls.end(), [&](const Touching& ball) {
+    return ball.depth - ball.radius >= stretch * low && ball.depth + ball.radius <= stretch * high;
+  });
+}
+
+}  // namespace
+
+ContourStack stack_contours(const std::vector<Contour>& contours) {
+  ContourStack stack;
+  double aspect = 1;
+  set_frame(contours, stack, aspect);
+  std::vector<Ring> rings;
+  for (const Contour& contour : contours) {
+    rings.push_back({dot(stack.axes[2], subtract(contour.center, stack.origin)),
+                     contour.major_length * contour.minor_length * aspect});
+  }
+  if (rings.front().depth > rings.back().depth) {
+    stack.axes[2] = scale(stack.axes[2], -1);
+    stack.axes[1] = scale(stack.axes[1], -1);
+    for (Ring& ring : rings) ring.depth = -ring.depth;
+  }
+  double stretch = std::clamp(roundest_stretch(rings), 1 / kMostStretch, kMostStretch);
+  std::vector<Touching> touching = touching_balls(rings, stretch);
+  while (!ends_in_time(rings, touching, stretch) && stretch < kMostStretch) {
+    stretch = std::min(1.2 * stretch, kMostStretch);
+    touching = touching_balls(rings, stretch);
+  }
+  stack.to_local = {stack.axes[0], scale(stack.axes[1], aspect), scale(stack.axes[2], stretch)};
+  stack.axes = {stack.axes[0], scale(stack.axes[1], 1 / aspect), scale(stack.axes[2], 1 / stretch)};
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    const Vector3 arm = subtract(contours[i].center, stack.origin);
+    stack.balls.push_back(
+        {{dot(stack.to_local[0], arm), dot(stack.to_local[1], arm), touching[i].depth}, touching[i].radius});
+  }
+  return stack;
+}
+
+}  // namespace isofield
