@@ -8,9 +8,11 @@
 #include <cstdio>
 #include <memory>
 
+#include "gzip.h"
 #include "json_text.h"
 
 namespace isofield {
+
 absl::StatusOr<std::string> read_file(const std::string& path) {
   const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   struct stat information {};
@@ -28,7 +30,10 @@ absl::StatusOr<std::string> read_file(const std::string& path) {
   }
   if (std::ferror(file.get())) return absl::ErrnoToStatus(errno, path);
   data.resize(used);
-  return data;
+  if (!is_gzip(data)) return data;
+  auto unpacked = gunzip(data);
+  if (unpacked.ok()) return unpacked;
+  return absl::Status(unpacked.status().code(), absl::StrCat(path, ": ", unpacked.status().message()));
 }
 
 absl::StatusOr<v1::Scene> parse_scene_json(const std::string& text, const std::string& name) {

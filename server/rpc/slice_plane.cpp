@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "blobtree/scene.h"
 #include "engine/status_macros.h"
 #include "rpc/geometry_arguments.h"
 

@@ -255,8 +255,8 @@ TEST_F(ClientTest, MeshesWithProgress) {
   v1::MeshRequest request;
   *request.mutable_scene() = inline_scene(ball());
   std::vector<double> fractions;
-  const auto mesh = client_.mesh(request, [&](double fraction) {
-    fractions.push_back(fraction);
+  const auto mesh = client_.mesh(request, [&](const v1::MeshProgress& progress) {
+    fractions.push_back(progress.fraction());
     return true;
   });
   ASSERT_TRUE(mesh.ok()) << mesh.status();
@@ -274,7 +274,8 @@ TEST_F(ClientTest, ACancelledMeshStopsTheServer) {
   v1::MeshRequest request;
   *request.mutable_scene() = inline_scene(ball());
   int calls = 0;
-  EXPECT_EQ(client_.mesh(request, [&](double) { return ++calls < 5; }).status().code(), absl::StatusCode::kCancelled);
+  const auto mesh = client_.mesh(request, [&](const v1::MeshProgress&) { return ++calls < 5; });
+  EXPECT_EQ(mesh.status().code(), absl::StatusCode::kCancelled);
   for (int i = 0; i < 200 && !server_.mesh_cancelled; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_TRUE(server_.mesh_cancelled);
 }

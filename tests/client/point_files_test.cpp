@@ -71,7 +71,9 @@ TEST(PointFiles, AreReadAsTheirAnswersSay) {
     EXPECT_TRUE(status.ok()) << status;
     EXPECT_EQ(points, answer.points) << answer.file;
     EXPECT_EQ(notes.empty(), answer.note.empty()) << answer.file;
-    if (!notes.empty()) EXPECT_TRUE(absl::StrContains(notes[0], answer.note)) << notes[0];
+    if (!notes.empty()) {
+      EXPECT_TRUE(absl::StrContains(notes[0], answer.note)) << notes[0];
+    }
   }
 }
 

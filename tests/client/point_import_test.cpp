@@ -15,7 +15,7 @@ absl::StatusOr<Imported> import(const std::string& text, const ImportOptions& op
 
 std::vector<double> soft_radii(const absl::StatusOr<Imported>& imported) {
   std::vector<double> radii;
-  for (int i = 0; imported.ok() && i < imported->report.pieces; ++i) {
+  for (int i = 0; imported.ok() && i < static_cast<int>(imported->report.pieces); ++i) {
     const v1::Sphere& sphere = imported->scene.nodes(i).sphere();
     EXPECT_NEAR(sphere.radius() / (sphere.radius() + sphere.range()), kSurface, 1e-9);
     radii.push_back(std::round(1e6 * (sphere.radius() + sphere.range())) / 1e6);

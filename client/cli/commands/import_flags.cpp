@@ -50,7 +50,7 @@ void ImportFlags::add_to(CLI::App& command) {
       .add_option("--assembly", options.assembly,
                   "PDB, mmCIF: the biological assembly to make, such as 1 (default: the atoms as they stand)")
       ->group(kGroup);
-  command.add_flag("--hydrogens,!--no-hydrogens", options.keep_hydrogens, "PDB, mmCIF: keep hydrogen (default), or not")
+  command.add_flag("--hydrogens,!--no-hydrogens", options.keep_hydrogens, "Molecules: keep hydrogen (default), or not")
       ->group(kGroup);
   command.add_flag("--waters", options.keep_waters, "PDB, mmCIF: keep water molecules")->group(kGroup);
   command

@@ -3,6 +3,7 @@
 #include <absl/strings/ascii.h>
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
+#include <absl/strings/strip.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -28,14 +29,15 @@ absl::StatusOr<v1::SceneRef> scene_argument(const std::string& argument, const I
     return inline_scene(std::move(loaded->scene));
   }
   // No name in the catalog ends like this by accident.
-  if (import_format(argument) || absl::EndsWith(argument, ".json") || absl::EndsWith(argument, ".pb")) {
+  const absl::string_view name = absl::StripSuffix(argument, ".gz");
+  if (import_format(argument) || absl::EndsWith(name, ".json") || absl::EndsWith(name, ".pb")) {
     return file_error(absl::NotFoundError(absl::StrCat(argument, ": no such file")));
   }
   return scene_by_name(argument);
 }
 
 std::string stem(const std::string& path) {
-  return std::filesystem::path(path).stem().string();
+  return std::filesystem::path(std::string(absl::StripSuffix(path, ".gz"))).stem().string();
 }
 
 std::string name_for(const std::string& path) {

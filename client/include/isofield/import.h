@@ -47,14 +47,14 @@ struct ImportOptions {
   bool apply_scale = false;
   // Molecules: which frame of an XYZ file, or which model of a PDB or mmCIF file, is taken; from 1, by its place.
   std::optional<int> frame;
-  // PDB and mmCIF: only these chains; empty: all.
+  // PDB and mmCIF: only these chains, also of an assembly; empty: all.
   std::vector<std::string> chains;
-  // PDB and mmCIF: the alternate location that is taken, such as "A". Empty: of each residue the one of the highest
-  // occupancy.
+  // PDB and mmCIF: the alternate location that is taken, such as "A". Empty, and in residues that lack it: the one of
+  // the highest occupancy, the mean over the residue's atoms; of equal ones the first. Atoms without one always stay.
   std::string altloc;
   // PDB and mmCIF: the biological assembly that is made, by its name in the file. Empty: the atoms as they stand.
   std::string assembly;
-  // PDB and mmCIF: hydrogen and its isotopes, water.
+  // Molecules: hydrogen and its isotopes. PDB and mmCIF: water.
   bool keep_hydrogens = true;
   bool keep_waters = false;
   // Scene::unit. Empty: "angstrom" for molecules, "um" for neurons, since SWC does not state one and micrometres are
@@ -91,7 +91,8 @@ struct Imported {
   ImportReport report;
 };
 
-// What the ending of a file's name promises: .swc; .pdb, .ent; .cif, .mmcif; .xyz; .txt (points). Nothing: another ending.
+// What the ending of a file's name promises: .swc, .eswc; .pdb, .ent; .cif, .mmcif; .xyz; .txt (points); each also with
+// .gz after it. Nothing: another ending.
 std::optional<ImportFormat> import_format(const std::string& path);
 
 // "camel", "organic", "contact", "sum", "max" or "ricci".
@@ -105,24 +106,37 @@ std::optional<ImportOperator> import_operator(const std::string& name);
 //    Of doubled ids the first is used. A cycle is cut at its first sample in the file. A sample without a positive
 //    radius gets ImportOptions::radius. Edges of length 0 are dropped where another piece covers them.
 //  - Pieces come parents first; a file that is in that order keeps it. Named "n<id>" after the sample at the far end.
-// PDB: a sphere of van der Waals radius for each atom of the first model; alternate locations but the first, and
-// water, are left out. Named "CHAIN/RESIDUE/ATOM" where that is unique.
-// XYZ: "count, comment, lines of: element x y z" as molecules, first frame only.
+// PDB and mmCIF (mmJSON too): a sphere of van der Waals radius for each atom of one model, in angstrom. Named
+// "CHAIN/RESIDUE/ATOM" where that is unique; in copies of a chain that an assembly makes, "CHAIN-2/RESIDUE/ATOM".
+//  - Water, and all locations of a residue but one, are left out. Frames that END parts are models. Chains have the
+//    names that their authors gave them (auth_asym_id).
+//  - PDB: a line whose fields are not in their columns is mended where it is certain which field is which: after serial
+//    numbers of six digits or more, with tabs, or with blanks between all fields. A line without three whole
+//    coordinates is dropped. Where no element is stated, the atom's name, its residue and its columns tell it: amino
+//    acids and nucleotides hold C, N, O, S, P, H and Se only, so that "CA" there is a carbon, also left-justified.
+//  - mmCIF: of the columns of _atom_site only Cartn_x, Cartn_y and Cartn_z must be there. A line of an atom with too few
+//    or too many values is dropped; other damage ends the import with the line's number.
+// XYZ: frames of "count, comment, lines of: element x y z" as molecules, in angstrom, or in bohr where the count line
+// says so. Lines "x y z" alone, also after a count, are points.
+//  - "Properties=" in the comment decides the columns. An element is a symbol, a label ("C12", "Fe3+"), an isotope
+//    ("13C", "D") or an atomic number; a label in capitals such as "CA1" is the lighter element, here carbon.
+//  - Files of Tinker, whose atoms are numbered, are recognised.
 // Points: lines "x y z" as soft objects w(distance / R), that is radius r0 R and range (1 - r0) R.
-//  - With a header the columns x, y and z, in any order, and as R the column "radius" (or "r", where there is no "g" beside it). Case,
-//    quotes and a unit, as in "X (um)", do not matter; "position x", "pos_x" and the like do where x, y, z are not there. INVALID_ARGUMENT: the header
-//    names no x, y, z, or one of them twice.
+//  - With a header the columns x, y and z, in any order, and as R the column "radius" (or "r", where there is no "g"
+//    beside it). Case, quotes and a unit, as in "X (um)", do not matter; "position x", "pos_x" and the like do where
+//    x, y, z are not there. INVALID_ARGUMENT: the header names no x, y, z, or one of them twice.
 //  - Without a header the first three columns; the report mentions others. ImportOptions::radius_column is R's.
 //  - Cells are parted by commas, semicolons, tabs or blanks. Decimal commas are read between semicolons.
 //
-// INVALID_ARGUMENT: an option out of its range, or nothing in the text that could be used; `name` stands for the file.
+// INVALID_ARGUMENT: an option out of its range; a model, frame, chain, alternate location or assembly that is not in
+// the file, with those that are; or nothing in the text that could be used. `name` stands for the file.
 absl::StatusOr<Imported> import_text(const std::string& text, ImportFormat format, const ImportOptions& options,
                                      const std::string& name);
 
-// The same of a file. Its format is told by its content where that is plain (molecules, neurons), else by the ending of its
-// name, else by the content again: lines of three numbers are points.
-// INVALID_ARGUMENT, too: nothing that can be imported; the message says what it is, where that is known, and what can be
-// read. NOT_FOUND, PERMISSION_DENIED ...: the file cannot be read.
+// The same of a file, which may be packed by gzip. Its format is told by its content where that is plain (molecules,
+// neurons), else by the ending of its name, else by the content again: lines of three numbers are points.
+// INVALID_ARGUMENT, too: nothing that can be imported; the message says what it is, where that is known, and what can
+// be read. Others: those of read_file (scene_file.h).
 absl::StatusOr<Imported> import_file(const std::string& path, const ImportOptions& options);
 
 // A scene from a file, and what its import had to report where it was imported.

@@ -28,7 +28,7 @@ constexpr std::array<Element, 118> kElements = {
 }  // namespace
 
 const Element* find_element(absl::string_view symbol) {
-  if (absl::EqualsIgnoreCase(symbol, "D")) symbol = "H";
+  if (absl::EqualsIgnoreCase(symbol, "D") || absl::EqualsIgnoreCase(symbol, "T")) symbol = "H";
   for (const Element& element : kElements) {
     if (absl::EqualsIgnoreCase(element.symbol, symbol)) return &element;
   }

@@ -38,6 +38,9 @@ std::optional<ImportFormat> format_of(FileKind kind) {
 }  // namespace
 
 std::optional<ImportFormat> import_format(const std::string& path) {
+  // A packed file is of the format that it unpacks to.
+  const absl::string_view name = absl::EndsWithIgnoreCase(path, ".gz") ? absl::string_view(path).substr(0, path.size() - 3)
+                                                                       : absl::string_view(path);
   constexpr std::array<std::pair<const char*, ImportFormat>, 8> kExtensions = {{{".swc", ImportFormat::kSwc},
                                                                                 {".eswc", ImportFormat::kSwc},
                                                                                 {".pdb", ImportFormat::kPdb},
@@ -47,7 +50,7 @@ std::optional<ImportFormat> import_format(const std::string& path) {
                                                                                 {".xyz", ImportFormat::kXyz},
                                                                                 {".txt", ImportFormat::kPoints}}};
   for (const auto& [extension, format] : kExtensions) {
-    if (absl::EndsWithIgnoreCase(path, extension)) return format;
+    if (absl::EndsWithIgnoreCase(name, extension)) return format;
   }
   return std::nullopt;
 }

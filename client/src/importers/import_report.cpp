@@ -19,7 +19,8 @@ void note(ImportReport& report, absl::string_view what, std::size_t line_number,
   if (finding == report.findings.end()) {
     finding = report.findings.insert(finding, ImportReport::Finding{std::string(what), 0, {}, damage});
   }
-  if (++finding->count <= kExamples) finding->examples.push_back(quote_line(line_number, line));
+  if (++finding->count > kExamples || (line_number == 0 && line.empty())) return;
+  finding->examples.push_back(line_number > 0 ? quote_line(line_number, line) : absl::StrCat("entry ", line));
 }
 
 bool ImportReport::damaged() const {

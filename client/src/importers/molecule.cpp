@@ -1,13 +1,111 @@
 #include "importers/molecule.h"
 
+#include <absl/container/flat_hash_map.h>
+#include <absl/container/flat_hash_set.h>
+#include <absl/strings/ascii.h>
+#include <absl/strings/str_cat.h>
+
+#include <cmath>
+
 #include "importers/import_options.h"
 #include "importers/import_report.h"
+#include "importers/molecule_selection.h"
 
 namespace isofield {
 namespace {
 
 // Without ImportOptions::range_factor.
 constexpr double kRangeFactor = 0.5;
+// Beyond this a scene is larger than any daemon takes; it bounds what a damaged list of operators can ask for.
+constexpr std::size_t kMostAtoms = 50'000'000;
+
+// Dots separate names from fields in edits, a leading '#' stands for an index, and a scene is UTF-8.
+std::string node_name(const MoleculeAtom& atom, int copy) {
+  std::string chain(atom.chain);
+  if (copy > 1) absl::StrAppend(&chain, "-", copy);
+  std::string name;
+  for (const std::string& part : {chain, absl::StrCat(atom.residue, atom.number), std::string(atom.name)}) {
+    if (!part.empty()) absl::StrAppend(&name, name.empty() ? "" : "/", part);
+  }
+  for (char& c : name) {
+    if (c == '.' || c == '#' || !absl::ascii_isgraph(static_cast<unsigned char>(c))) c = '_';
+  }
+  return name;
+}
+
+std::array<double, 3> moved(const RigidMotion& motion, const std::array<double, 3>& center) {
+  std::array<double, 3> result = motion.shift;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) result[i] += motion.rotation[i][j] * center[j];
+  }
+  return result;
+}
+
+bool is_rigid(const RigidMotion& motion) {
+  // Files have six decimals at least.
+  constexpr double kTolerance = 0.01;
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(motion.shift[i])) return false;
+    for (int j = 0; j < 3; ++j) {
+      double product = 0;
+      for (int k = 0; k < 3; ++k) product += motion.rotation[i][k] * motion.rotation[j][k];
+      if (!(std::abs(product - (i == j)) < kTolerance)) return false;
+    }
+  }
+  return true;
+}
+
+class AtomAdder {
+ public:
+  AtomAdder(const ImportOptions& options, Imported& imported) : options_(options), imported_(imported) {}
+
+  void add(const MoleculeAtom& atom, const std::array<double, 3>& center, int copy) {
+    v1::Node& node = add_atom(atom.element, center, atom.source, options_, imported_);
+    std::string name = node_name(atom, copy);
+    if (!name.empty() && names_.insert(name).second) node.set_name(std::move(name));
+  }
+
+ private:
+  const ImportOptions& options_;
+  Imported& imported_;
+  absl::flat_hash_set<std::string> names_;
+};
+
+absl::Status add_assembly(const Assembly& assembly, const std::vector<const MoleculeAtom*>& atoms, AtomAdder& adder,
+                          ImportReport& report) {
+  absl::flat_hash_set<const MoleculeAtom*> used;
+  absl::flat_hash_map<absl::string_view, int> copies;
+  std::size_t added = 0;
+  for (const Assembly::Part& part : assembly.parts) {
+    const absl::flat_hash_set<absl::string_view> chains(part.chains.begin(), part.chains.end());
+    std::vector<const MoleculeAtom*> members;
+    for (const MoleculeAtom* atom : atoms) {
+      if (chains.contains(atom->assembly_chain)) members.push_back(atom);
+    }
+    used.insert(members.begin(), members.end());
+    added += members.size() * part.motions.size();
+    if (added > kMostAtoms) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("assembly ", assembly.name, " has ", added, " atoms; expected ", kMostAtoms, " at most"));
+    }
+    for (const RigidMotion& motion : part.motions) {
+      if (!is_rigid(motion)) {
+        return absl::InvalidArgumentError(
+            absl::StrCat("an operator of assembly ", assembly.name, " is not a rotation with a shift"));
+      }
+      for (const absl::string_view chain : chains) ++copies[chain];
+      for (const MoleculeAtom* atom : members) {
+        adder.add(*atom, moved(motion, atom->center), copies[atom->assembly_chain]);
+      }
+    }
+  }
+  for (const MoleculeAtom* atom : atoms) {
+    if (!used.contains(atom)) {
+      note(report, "atom left out: not in the assembly", atom->source.line_number, atom->source.line, false);
+    }
+  }
+  return absl::OkStatus();
+}
 
 }  // namespace
 
@@ -25,6 +123,38 @@ v1::Node& add_atom(const Element* element, const std::array<double, 3>& center, 
   sphere.set_radius(radius);
   sphere.set_range(range_of(options, kRangeFactor, radius));
   return node;
+}
+
+bool leave_out_hydrogen(const Element* element, const AtomSource& source, const ImportOptions& options,
+                        ImportReport& report) {
+  if (options.keep_hydrogens || !element || element->symbol != "H") return false;
+  note(report, "atom left out: hydrogen", source.line_number, source.line, false);
+  return true;
+}
+
+absl::Status add_molecule(const Molecule& molecule, const ImportOptions& options, Imported& imported) {
+  const auto chosen = choose_atoms(molecule, options, imported.report);
+  if (!chosen.ok()) return chosen.status();
+  const auto assembly = choose_assembly(molecule, options);
+  if (!assembly.ok()) return assembly.status();
+  AtomAdder adder(options, imported);
+  if (*assembly) return add_assembly(**assembly, *chosen, adder, imported.report);
+  for (const MoleculeAtom* atom : *chosen) adder.add(*atom, atom->center, 1);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<int> choose_frame(absl::string_view kind, int frames, const ImportOptions& options,
+                                 ImportReport& report) {
+  const int frame = options.frame.value_or(1);
+  if (frame > frames) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        kind, " ", frame, " is not in the file, which has ", frames, " ", kind, frames == 1 ? "" : "s",
+        frames > 1 ? absl::StrCat("; expected 1 to ", frames) : frames == 1 ? "; expected 1" : ""));
+  }
+  if (frames > 1) {
+    note(report, absl::StrCat("file of ", frames, " ", kind, "s: ", kind, " ", frame, " is taken"), 0, "", false);
+  }
+  return frame;
 }
 
 }  // namespace isofield

@@ -1,82 +1,117 @@
-#include <absl/strings/ascii.h>
 #include <absl/strings/str_cat.h>
 
-#include <array>
+#include <algorithm>
 
+#include "importers/atom_element.h"
 #include "importers/formats.h"
 #include "importers/import_report.h"
 #include "importers/molecule.h"
 #include "importers/text.h"
+#include "importers/tinker.h"
+#include "importers/xyz_columns.h"
+#include "importers/xyz_frames.h"
 
 namespace isofield {
 namespace {
 
-// Fields first, first + 1, first + 2.
-bool parse_center(const std::vector<absl::string_view>& fields, std::size_t first, std::array<double, 3>& center) {
-  if (fields.size() < first + 3) return false;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto value = parse_length(fields[first + axis]);
-    if (!value) return false;
-    center[axis] = *value;
+bool states_columns(const std::vector<TextLine>& lines, std::size_t comment_line) {
+  bool valid = true;
+  return comment_line < lines.size() && parse_columns(lines[comment_line].text, valid);
+}
+
+// The columns that the frame's comment states, or "element x y z".
+XyzColumns columns_of(const std::vector<TextLine>& lines, const XyzFrame& frame, ImportReport& report) {
+  if (frame.comment_line >= lines.size()) return {};
+  const TextLine& comment = lines[frame.comment_line];
+  bool valid = true;
+  const auto columns = parse_columns(comment.text, valid);
+  if (!valid) {
+    note(report, "columns of \"Properties=\" not understood: \"element x y z\" is read", comment.number, comment.text);
   }
-  return true;
+  return columns.value_or(XyzColumns());
 }
 
-const Element* element_of(absl::string_view field) {
-  if (const auto number = parse_integer(field)) return find_element(*number);
-  // Some programs number the atoms: "C12".
-  const std::size_t digits = field.find_first_of("0123456789");
-  return find_element(field.substr(0, digits));
+const Element* element_in(const std::vector<absl::string_view>& fields, const XyzColumns& columns) {
+  const Element* element = nullptr;
+  if (columns.species && *columns.species < fields.size()) element = element_of_label(fields[*columns.species]);
+  if (!element && columns.number && *columns.number < fields.size()) {
+    if (const auto number = parse_integer(fields[*columns.number])) element = find_element(*number);
+  }
+  return element;
 }
 
-// After the count line.
-void import_atoms(long long count, LineReader& lines, const ImportOptions& options, Imported& imported) {
-  imported.report.format = "molecule (XYZ)";
-  imported.scene.set_unit("angstrom");
-  const std::size_t count_line = lines.number();
-  absl::string_view line;
-  lines.next(line);  // the comment
+void import_atom(const TextLine& line, const XyzColumns& columns, double scale, const ImportOptions& options,
+                 Imported& imported) {
+  const auto fields = split_fields(line.text);
+  std::array<double, 3> center;
+  if (!parse_center(fields, columns.position, center)) {
+    note(imported.report,
+         absl::StrCat("line dropped: expected finite numbers of a usable size for x, y and z in its fields ",
+                      columns.position + 1, " to ", columns.position + 3),
+         line.number, line.text);
+    return;
+  }
+  const AtomSource source{line.number, line.text};
+  const Element* const element = element_in(fields, columns);
+  if (leave_out_hydrogen(element, source, options, imported.report)) return;
+  for (double& coordinate : center) coordinate *= scale;
+  add_atom(element, center, source, options, imported);
+}
+
+void import_frame(const std::vector<TextLine>& lines, const XyzFrame& frame, const ImportOptions& options,
+                  Imported& imported) {
+  ImportReport& report = imported.report;
+  const TextLine& header = lines[frame.header_line];
+  if (frame.header.scale != 1) note(report, "lengths converted from bohr", header.number, header.text, false);
+  if (frame.comment_line == kNoComment) {
+    note(report, "comment line missing: the atoms follow the count", header.number, header.text);
+  }
+  const XyzColumns columns = columns_of(lines, frame, report);
   long long read = 0;
-  while (lines.next(line)) {
-    if (read == count) {
-      if (line.empty()) continue;
-      const bool frame = parse_integer(line).has_value();
-      note(
-          imported.report,
-          frame ? "line left out: a further frame" : "line dropped: more atoms than the count in the first line states",
-          lines.number(), line, !frame);
-      if (frame) break;
-      continue;
-    }
+  for (std::size_t at = frame.first_atom; at < frame.end; ++at) {
+    if (lines[at].text.empty()) continue;
     ++read;
-    ++imported.report.read;
-    const auto fields = split_fields(line);
-    std::array<double, 3> center;
-    if (!parse_center(fields, 1, center)) {
-      note(imported.report, "line dropped: expected \"element x y z\" with finite numbers of a usable size",
-           lines.number(), line);
-      continue;
-    }
-    add_atom(element_of(fields[0]), center, {lines.number(), line}, options, imported);
+    import_atom(lines[at], columns, frame.header.scale, options, imported);
   }
-  if (read < count) {
-    note(imported.report, "file ends early: fewer atoms than its count states", count_line, absl::StrCat(count));
+  report.read += static_cast<std::size_t>(read);
+  if (read < frame.header.count) {
+    note(report, "frame ends early: fewer atoms than its count states", header.number, header.text);
   }
+  for (std::size_t at = frame.end; at < frame.next; ++at) {
+    if (lines[at].text.empty()) continue;
+    note(report, "line dropped: more atoms than the count in the first line states", lines[at].number, lines[at].text);
+  }
+}
+
+// The text without a count, and a comment, before its points; lines keep their numbers.
+std::string without_header(const std::string& text, const std::vector<TextLine>& lines, std::size_t header_line) {
+  std::size_t first = header_line + 1;
+  if (!are_numbers(split_fields(lines[first].text))) ++first;
+  if (first >= lines.size()) return {};
+  const auto offset = static_cast<std::size_t>(lines[first].text.data() - text.data());
+  return std::string(lines[first].number - 1, '\n') + text.substr(offset);
 }
 
 }  // namespace
 
 absl::Status import_xyz(const std::string& text, const ImportOptions& options, Imported& imported) {
-  LineReader lines(text);
-  absl::string_view line;
-  while (lines.next(line)) {
-    if (line.empty() || line.front() == '#') continue;
-    const auto fields = split_fields(line);
-    const auto count = parse_integer(fields[0]);
-    if (fields.size() != 1 || !count || *count < 0) return import_points(text, options, imported);
-    import_atoms(*count, lines, options, imported);
-    break;
+  const std::vector<TextLine> lines = read_lines(text);
+  const auto first = std::find_if(lines.begin(), lines.end(), [](const TextLine& line) {
+    return !line.text.empty() && line.text.front() != '#';
+  });
+  const auto header_line = static_cast<std::size_t>(first - lines.begin());
+  const auto header = first == lines.end() ? std::nullopt : parse_header(first->text);
+  if (!header) return import_points(text, options, imported);
+  if (is_tinker(lines, header_line)) return import_tinker(lines, header_line, options, imported);
+  if (!states_columns(lines, header_line + 1) && are_points(lines, header_line, *header)) {
+    return import_points(without_header(text, lines, header_line), options, imported);
   }
+  imported.report.format = "molecule (XYZ)";
+  imported.scene.set_unit("angstrom");
+  const auto frames = find_frames(lines, header_line);
+  const auto chosen = choose_frame("frame", static_cast<int>(frames.size()), options, imported.report);
+  if (!chosen.ok()) return chosen.status();
+  import_frame(lines, frames[static_cast<std::size_t>(*chosen) - 1], options, imported);
   return absl::OkStatus();
 }
 

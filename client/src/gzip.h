@@ -1,0 +1,21 @@
+#pragma once
+
+#include <absl/status/statusor.h>
+#include <absl/strings/string_view.h>
+
+#include <cstddef>
+#include <string>
+
+namespace isofield {
+
+// What a packed file may hold at most, so that a small file cannot fill the memory.
+inline constexpr std::size_t kMostUnpackedBytes = std::size_t{4} << 30;
+
+// By the first bytes, whatever the file's name is.
+bool is_gzip(absl::string_view data);
+
+// Unpacks all members of a gzip file, one after the other. INVALID_ARGUMENT: it is damaged or ends early.
+// RESOURCE_EXHAUSTED: it holds more than `limit` bytes.
+absl::StatusOr<std::string> gunzip(absl::string_view data, std::size_t limit = kMostUnpackedBytes);
+
+}  // namespace isofield

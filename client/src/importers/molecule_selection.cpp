@@ -1,0 +1,154 @@
+#include "importers/molecule_selection.h"
+
+#include <absl/container/flat_hash_map.h>
+#include <absl/container/flat_hash_set.h>
+#include <absl/strings/str_cat.h>
+#include <absl/strings/str_join.h>
+
+#include <algorithm>
+
+#include "importers/atom_element.h"
+#include "importers/import_report.h"
+
+namespace isofield {
+namespace {
+
+// Names in the order in which they were first seen, each once.
+class NameList {
+ public:
+  void add(absl::string_view name) {
+    if (known_.insert(name).second) names_.push_back(name);
+  }
+  bool has(absl::string_view name) const { return known_.contains(name); }
+  bool empty() const { return names_.empty(); }
+  std::string text() const {
+    return absl::StrJoin(names_, ", ", [](std::string* out, absl::string_view name) {
+      absl::StrAppend(out, name.empty() ? "one without a name" : name);
+    });
+  }
+
+ private:
+  absl::flat_hash_set<absl::string_view> known_;
+  std::vector<absl::string_view> names_;
+};
+
+absl::Status missing(absl::string_view kind, absl::string_view name, const NameList& present) {
+  return absl::InvalidArgumentError(absl::StrCat(kind, " ", name, " is not in the file, which has ",
+                                                 present.empty() ? "none" : absl::StrCat("only ", present.text())));
+}
+
+absl::Status check_names(const Molecule& molecule, const ImportOptions& options) {
+  NameList chains, altlocs;
+  for (const MoleculeAtom& atom : molecule.atoms) {
+    chains.add(atom.chain);
+    if (!atom.altloc.empty()) altlocs.add(atom.altloc);
+  }
+  for (const std::string& chain : options.chains) {
+    if (!chains.has(chain)) return missing("chain", chain, chains);
+  }
+  if (!options.altloc.empty() && !altlocs.has(options.altloc)) {
+    return missing("alternate location", options.altloc, altlocs);
+  }
+  return absl::OkStatus();
+}
+
+// Which alternate location is taken of each residue. A residue is a chain and a number: where two kinds of residue
+// share one place, they are alternate locations of each other.
+class AltlocChoice {
+ public:
+  AltlocChoice(const Molecule& molecule, const ImportOptions& options) {
+    for (const MoleculeAtom& atom : molecule.atoms) {
+      if (!atom.altloc.empty()) count(atom);
+    }
+    for (auto& [place, residue] : residues_) residue.choose(options.altloc);
+  }
+
+  bool takes(const MoleculeAtom& atom) const {
+    return atom.altloc.empty() || residues_.at({atom.chain, atom.number}).chosen == atom.altloc;
+  }
+  // The residue lacks the location that was asked for, so that another one stands in.
+  bool stands_in(const MoleculeAtom& atom, const ImportOptions& options) const {
+    return !atom.altloc.empty() && !options.altloc.empty() && atom.altloc != options.altloc;
+  }
+
+ private:
+  struct Location {
+    absl::string_view name;
+    double occupancy = 0;
+    int atoms = 0;
+  };
+  struct Residue {
+    std::vector<Location> locations;
+    absl::string_view chosen;
+
+    void choose(absl::string_view wanted) {
+      // Sums of equal occupancies differ by rounding.
+      constexpr double kTie = 1e-6;
+      const Location* best = nullptr;
+      for (Location& location : locations) {
+        location.occupancy /= location.atoms;
+        if (location.name == wanted) {
+          best = &location;
+          break;
+        }
+        if (!best || location.occupancy > best->occupancy + kTie) best = &location;
+      }
+      chosen = best->name;
+    }
+  };
+
+  void count(const MoleculeAtom& atom) {
+    std::vector<Location>& locations = residues_[{atom.chain, atom.number}].locations;
+    auto location = std::find_if(locations.begin(), locations.end(),
+                                 [&](const Location& known) { return known.name == atom.altloc; });
+    if (location == locations.end()) location = locations.insert(location, Location{atom.altloc, 0, 0});
+    location->occupancy += atom.occupancy;
+    ++location->atoms;
+  }
+
+  absl::flat_hash_map<std::pair<absl::string_view, absl::string_view>, Residue> residues_;
+};
+
+}  // namespace
+
+absl::StatusOr<std::vector<const MoleculeAtom*>> choose_atoms(const Molecule& molecule, const ImportOptions& options,
+                                                              ImportReport& report) {
+  if (auto status = check_names(molecule, options); !status.ok()) return status;
+  const AltlocChoice altlocs(molecule, options);
+  std::vector<const MoleculeAtom*> chosen;
+  for (const MoleculeAtom& atom : molecule.atoms) {
+    const AtomSource& at = atom.source;
+    const bool water = is_water(atom.residue);
+    if (!options.chains.empty() &&
+        std::find(options.chains.begin(), options.chains.end(), atom.chain) == options.chains.end()) {
+      note(report, "atom left out: of another chain", at.line_number, at.line, false);
+    } else if (water && !options.keep_waters) {
+      note(report, "atom left out: water", at.line_number, at.line, false);
+    } else if (water && !atom.element) {
+      note(report, "site left out: a force centre of a water model, which is no atom", at.line_number, at.line, false);
+    } else if (!altlocs.takes(atom)) {
+      note(report, "atom left out: an alternate location", at.line_number, at.line, false);
+    } else if (!leave_out_hydrogen(atom.element, at, options, report)) {
+      if (altlocs.stands_in(atom, options)) {
+        note(report,
+             absl::StrCat("atom of another alternate location than ", options.altloc,
+                          ", which its residue lacks: the one of the highest occupancy is taken"),
+             at.line_number, at.line, false);
+      }
+      chosen.push_back(&atom);
+    }
+  }
+  return chosen;
+}
+
+absl::StatusOr<const Assembly*> choose_assembly(const Molecule& molecule, const ImportOptions& options) {
+  if (options.assembly.empty()) return nullptr;
+  NameList names;
+  for (const Assembly& assembly : molecule.assemblies) {
+    if (assembly.name == options.assembly) return &assembly;
+    names.add(assembly.name);
+  }
+  return missing("assembly", options.assembly, names);
+}
+
+}  // namespace isofield
