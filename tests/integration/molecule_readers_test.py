@@ -60,10 +60,11 @@ def readers_python(folder):
     return python
 
 
-def cut(path, columns, folder):
-    """The file with its lines cut after so many columns."""
-    made = folder / f"{path.stem}_{columns}.pdb"
-    made.write_text("".join(line[:columns] + "\n" for line in path.read_text().splitlines()))
+def changed(path, name, change, folder):
+    """The file with its atoms' lines changed."""
+    made = folder / f"{path.stem}_{name}.pdb"
+    lines = path.read_text().splitlines()
+    made.write_text("".join((change(line) if line[:6] in ("ATOM  ", "HETATM") else line) + "\n" for line in lines))
     return made
 
 
@@ -95,8 +96,12 @@ def main():
         # What is imported, its options, the reader, the file that it reads, its frame and assembly.
         wanted = [
             (whole, [], "gemmi", whole, 1, ""),
-            (cut(whole, 76, folder), [], "gemmi", whole, 1, ""),
-            (cut(whole, 66, folder), [], "gemmi", whole, 1, ""),
+            (changed(whole, "cut_77", lambda l: l[:76], folder), [], "gemmi", whole, 1, ""),
+            (changed(whole, "cut_67", lambda l: l[:66], folder), [], "gemmi", whole, 1, ""),
+            (changed(whole, "left", lambda l: l[:12] + l[12:16].strip().ljust(4) + l[16:66], folder), [], "gemmi", whole,
+             1, ""),
+            (changed(whole, "shifted", lambda l: l[:6] + "1" + l[6:11].replace(" ", "0") + l[11:], folder), [], "gemmi",
+             whole, 1, ""),
             (data / "1A8O.pdb", [], "gemmi", data / "1A8O.pdb", 1, ""),
             (data / "1A8O.cif", [], "gemmi", data / "1A8O.cif", 1, ""),
             (data / "1A8O.cif", [], "gemmi", data / "1A8O.pdb", 1, ""),
@@ -111,7 +116,6 @@ def main():
             (own / "deuterium.pdb", [], "gemmi", own / "deuterium.pdb", 1, ""),
             (own / "hybrid_36.pdb", [], "gemmi", own / "hybrid_36.pdb", 1, ""),
             (own / "properties_pos_last.xyz", [], "ase", own / "properties_pos_last.xyz", 1, ""),
-            (own / "atomic_numbers.xyz", [], "ase", own / "atomic_numbers.xyz", 1, ""),
         ]
         queries = [[reader, str(path), frame, assembly] for _, _, reader, path, frame, assembly in wanted]
         run = subprocess.run([python, "-c", READ_ATOMS], input=json.dumps(queries), capture_output=True, text=True)
