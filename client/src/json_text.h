@@ -16,8 +16,8 @@ absl::Status parse_json(const std::string& text, const std::string& name, const 
 // Whether bytes begin as a JSON object does.
 bool is_json(absl::string_view content);
 
-// The content of a file that holds a message as proto3 JSON or in binary, into the message: by the content, and where that is
-// no JSON object, by the name: *.pb is binary. INVALID_ARGUMENT: it is neither; as parse_json().
+// The content of a file that holds a message as proto3 JSON or in binary, into the message: by the content, and where
+// that is no JSON object, by the name: *.pb is binary. INVALID_ARGUMENT: it is neither; as parse_json().
 absl::Status parse_file(const std::string& content, const std::string& name, const std::string& what,
                         google::protobuf::Message& message);
 

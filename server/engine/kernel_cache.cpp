@@ -1,5 +1,8 @@
 #include "engine/kernel_cache.h"
 
+#include <chrono>
+
+#include "engine/request_times.h"
 #include "engine/status_macros.h"
 #include "gpu/commands.h"
 
@@ -77,7 +80,9 @@ absl::StatusOr<gpu::SharedPipeline> KernelCache::get(const shaders::Spirv& shade
     kernel = it->second.kernel;
     is_ready = it->second.is_ready;
   }
-  if (!is_ready && waits) waits();
+  if (is_ready) return kernel.get();
+  if (waits) waits();
+  const auto start = std::chrono::steady_clock::now();
   if (compiles) {
     Compiled compiled = compile(shader, kind);
     {
@@ -91,6 +96,10 @@ absl::StatusOr<gpu::SharedPipeline> KernelCache::get(const shaders::Spirv& shade
       }
     }
     promise.set_value(std::move(compiled));
+  }
+  kernel.wait();
+  if (RequestTimes* const times = TimedScope::current()) {
+    times->add_compiling(std::chrono::steady_clock::now() - start);
   }
   return kernel.get();
 }

@@ -1,4 +1,4 @@
-// How long the work of a request waits for its turn at the device, and how long the device is at it.
+// How long the work of a request waits for its turn at the device and for kernels, and how long the device is at it.
 #pragma once
 
 #include <atomic>
@@ -13,11 +13,13 @@ class RequestTimes {
 
   void add_queued(Duration d) { queued_ += d.count(); }
   void add_on_device(Duration d) { on_device_ += d.count(); }
+  void add_compiling(Duration d) { compiling_ += d.count(); }
+  Duration compiling() const { return Duration(compiling_); }
   Duration queued() const { return Duration(queued_); }
   Duration on_device() const { return Duration(on_device_); }
 
  private:
-  std::atomic<Duration::rep> queued_ = 0, on_device_ = 0;
+  std::atomic<Duration::rep> queued_ = 0, compiling_ = 0, on_device_ = 0;
 };
 
 // From its construction to its end, what sessions of this thread wait for is added to `times`. Scopes may be nested: the

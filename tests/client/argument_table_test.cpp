@@ -3,6 +3,7 @@
 #include <absl/strings/match.h>
 #include <gtest/gtest.h>
 
+#include "operators/argument_columns.h"
 #include "test_support.h"
 
 namespace isofield {
@@ -40,6 +41,20 @@ TEST_F(ArgumentTableTest, ReadsColumnsByTheirPlaces) {
   EXPECT_EQ(*read("f1\tf2\n1\t2", {0, 1}), (Numbers{1, 2}));
   EXPECT_EQ(*read("f1  f2\n1 2\n", {0, 1}), (Numbers{1, 2}));
   EXPECT_EQ(*read("f1,f2\n", {0, 1}), Numbers());
+}
+
+TEST_F(ArgumentTableTest, ReadsWhatSpreadsheetsWrite) {
+  EXPECT_EQ(*read("f1;f2\n0,5;1e-1\n", {0, 1}), (Numbers{0.5f, 0.1f}));
+  EXPECT_EQ(*read("sep=;\r\nf1;f2\r\n0,5;2\r\n", {0, 1}), (Numbers{0.5f, 2}));
+  EXPECT_EQ(*read("\xEF\xBB\xBF\"f1\",\"a, b\"\r\"1\",\"x, y\"\r2,\r", {0}), (Numbers{1, 2})) << "CR";
+  EXPECT_EQ(*read("f1,f2,\n1,2,\n", {0, 1}), (Numbers{1, 2})) << "trailing separators";
+  EXPECT_EQ(*read("% c\nf1 f2\n1 1D-1\n", {0, 1}), (Numbers{1, 0.1f}));
+  expect_refused(read("f1 f2\n0,5 1\n", {0, 1}).status(), {"t.csv:2", "\"5 1\"", "column f2"});
+}
+
+TEST_F(ArgumentTableTest, AColumnThatIsThereTwiceIsRefused) {
+  EXPECT_EQ(*places_of({"f2", "f1"}, {"f1", "note", "note", "f2"}), (std::vector<std::size_t>{3, 0}));
+  expect_refused(places_of({"f1"}, {"f1", "f2", "f1"}).status(), {"the columns are f1, f2, f1; expected f1 once"});
 }
 
 TEST_F(ArgumentTableTest, ReadsInChunks) {

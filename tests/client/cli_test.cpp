@@ -1,4 +1,6 @@
 #include <absl/strings/match.h>
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_split.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -57,6 +59,92 @@ TEST_F(CliTest, EvaluatesPoints) {
   EXPECT_FALSE(read_file(path("bad.csv")).ok());
   EXPECT_EQ(run("eval none --points -", "1 2 3\n"), 1);
   EXPECT_EQ(run("eval none.json --points -", "1 2 3\n"), 4);
+}
+
+TEST_F(CliTest, RaysThatAreFedBackMeanTheirHits) {
+  write_file(path("ball.json"), kBall);
+  const std::string ball = path("ball.json");
+  // The last one runs along the plane.
+  const std::string origins = "id,z,y,x\n7,1,0,0\n8,2,0,0.25\n9,3,1,0\n10,4,0,0\n";
+  write_file(path("origins.csv"), origins);
+  write_file(path("directions.csv"), "dx,dy,dz\n0,0,-1\n0,0,-2\n0,-1,-1\n2,-1,0\n");
+  const std::string rays = " --origins " + path("origins.csv") + " --directions " + path("directions.csv");
+  const auto expect_hits = [&](const std::string& csv) {
+    std::size_t rows = 0;
+    for (const absl::string_view row : absl::StrSplit(csv, '\n', absl::SkipEmpty())) {
+      const std::vector<absl::string_view> cells = absl::StrSplit(row, ',');
+      float value = 0;
+      if (absl::SimpleAtof(cells.back(), &value)) {
+        EXPECT_NEAR(value, 0.5, 1e-5) << "the iso value: " << row;
+        ++rows;
+      }
+    }
+    EXPECT_EQ(rows, 3u) << csv;
+  };
+  ASSERT_EQ(run("ray " + ball + rays), 0) << err_;
+  ASSERT_EQ(run("eval " + ball + " --points -", std::string(out_)), 0) << err_;
+  EXPECT_TRUE(absl::StrContains(err_, "note: <stdin>: 1 row is left out")) << err_;
+  expect_hits(out_);
+  ASSERT_EQ(run("ray " + ball + rays + " -o " + path("hits.npy")), 0) << err_;
+  ASSERT_EQ(run("eval " + ball + " --points - ", *read_file(path("hits.npy"))), 0) << err_;
+  expect_hits(out_);
+  ASSERT_EQ(run("--json eval " + ball + " --points " + path("hits.npy") + " -o " + path("v.csv")), 0) << err_;
+  EXPECT_EQ(err_, "");
+  EXPECT_TRUE(absl::StrContains(out_, "\"points\":3") && absl::StrContains(out_, "hits.npy: 1 row is left out")) << out_;
+  expect_hits(*read_file(path("v.csv")));
+  // Values have no places; points of other columns would be an accident.
+  EXPECT_EQ(run("eval " + ball + " --points -", "u,v,value\n0,0,0.5\n"), 4);
+  EXPECT_TRUE(absl::StrContains(err_, "<stdin>:1: the columns are u, v, value; expected x, y and z")) << err_;
+  EXPECT_EQ(run("ray " + ball + " --origins - --directions -", "1 2 3\n"), 2);
+}
+
+TEST_F(CliTest, ColumnsWithoutNamesAreMentioned) {
+  write_file(path("ball.json"), kBall);
+  EXPECT_EQ(run("eval " + path("ball.json") + " --points -", "1 2 3 9 9\n0 0 0.5 9 9\n"), 0);
+  EXPECT_EQ(out_, "x,y,z,value\n1,2,3,14\n0,0,0.5,1.5\n");
+  EXPECT_EQ(err_,
+            "note: <stdin>: the columns have no names: the first three of 5 are read as x, y, z, and the others are "
+            "ignored\n");
+}
+
+TEST_F(CliTest, OutputsOfAnotherKindAreRefusedBeforeWork) {
+  write_file(path("ball.json"), kBall);
+  write_file(path("a.swc"), "1 3 0 0 0 1 -1\n2 3 5 0 0 1 1\n");
+  const std::string ball = path("ball.json"), points = " --points -";
+  const std::pair<std::string, const char*> commands[] = {
+      {"import " + path("a.swc") + " -o " + path("a.glb"), "`isofield mesh` writes meshes"},
+      {"import " + path("a.swc") + " -o " + path("a.PNG"), "`isofield render`"},
+      {"import " + path("a.swc") + " -o " + path("a.csv"), "write tables"},
+      {"import " + path("a.swc") + " -o " + path("a.xlsx"), "no command writes such files"},
+      {"eval " + ball + points + " -o " + path("a.glb"), "expected .csv or .npy"},
+      {"eval " + ball + points + " -o " + path("a.json"), "expected .csv or .npy"},
+      {"project " + ball + points + " -o " + path("a.png"), "expected .csv or .npy or .json"},
+      {"slice " + ball + " --origin 0,0,0 --spacing 1 --counts 2,2 -o " + path("a.stl"), "`isofield mesh`"},
+      {"operator eval max" + points + " -o " + path("a.npy"), "expected .csv"},
+  };
+  for (const auto& [command, part] : commands) {
+    EXPECT_EQ(run(command, "1 2 3\n"), 2) << command;
+    EXPECT_TRUE(absl::StrContains(err_, part)) << err_;
+  }
+  EXPECT_EQ(server_.reads, 0);
+  EXPECT_EQ(run("import " + path("a.swc") + " -o " + path("scene")), 0) << err_;
+}
+
+TEST_F(CliTest, ScenesAreKnownByTheirContent) {
+  v1::Scene scene = *parse_scene_json(kBall, "ball");
+  write_file(path("message.dat"), scene.SerializeAsString());
+  write_file(path("text.swc"), kBall);
+  write_file(path("neuron"), "1 3 0 0 0 1 -1\n2 3 5 0 0 1 1\n");
+  write_file(path("points"), "z;y;x\n0,5;0;0\n");
+  for (const char* const file : {"message.dat", "text.swc", "neuron", "points"}) {
+    EXPECT_EQ(run("eval " + path(file) + " --points -", "1 2 3\n"), 0) << file << ": " << err_;
+    EXPECT_EQ(run("put " + path(file) + " --name a"), 0) << file << ": " << err_;
+  }
+  EXPECT_TRUE(absl::StrContains(err_, "points (XYZ): 1 read, 1 pieces made")) << err_;
+  write_file(path("picture.swc"), std::string("\x89PNG\r\n\x1a\n\0\0", 10));
+  EXPECT_EQ(run("import " + path("picture.swc")), 4);
+  EXPECT_TRUE(absl::StrContains(err_, "picture.swc: a PNG picture; expected a scene (.json, .pb)")) << err_;
+  EXPECT_EQ(out_, "");
 }
 
 TEST_F(CliTest, MeshesAndRenders) {

@@ -18,8 +18,8 @@
 namespace isofield {
 
 // The contract, answered by one field: f(p) = x + 2y + 3z with gradient (1, 2, 3), whatever the scene. Its mesh is a
-// torus, but rays meet the plane f = iso. A scene reference by name must be in the catalog. Every operator is the sum of its columns, every opening
-// theta = alpha / 4.
+// torus, but rays meet the plane f = iso. A scene reference by name must be in the catalog. Every operator is the sum
+// of its columns, every opening theta = alpha / 4.
 class FakeServer {
  public:
   // "unix:PATH" or "HOST:PORT".

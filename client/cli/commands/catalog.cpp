@@ -137,7 +137,9 @@ void add_catalog_commands(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<Arguments>();
 
   CLI::App* command = app.add_subcommand("put", "Store a scene on the server, replacing one of that name");
-  command->add_option("FILE", arguments->file, "Scene (.json, .pb), or a file to import (.swc, .pdb, .cif, .xyz, .txt, .csv)")
+  command
+      ->add_option("FILE", arguments->file,
+                   "Scene (.json, .pb), or a file to import (.swc, .pdb, .cif, .xyz, .txt, .csv)")
       ->required();
   command->add_option("--name", arguments->name, "Name on the server (default: the file's, without its extension)");
   arguments->flags.add_to(*command);

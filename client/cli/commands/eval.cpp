@@ -75,9 +75,7 @@ void add_eval_command(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<EvalArguments>();
   CLI::App* command = app.add_subcommand("eval", "Evaluate the field, and its gradient, at points");
   command->add_option("SCENE", arguments->scene, "A file, or else a name on the server")->required();
-  command
-      ->add_option("--points", arguments->points, kPointsHelp)
-      ->required();
+  command->add_option("--points", arguments->points, kPointsHelp)->required();
   command->add_flag("--gradient", arguments->gradient, "The gradient too");
   command->add_flag("--shared-memory", arguments->shared_memory,
                     "Points and results through memory shared with the server, where it offers that");

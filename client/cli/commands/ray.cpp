@@ -20,8 +20,7 @@ struct RayArguments : PointTableArguments {
 absl::StatusOr<std::vector<float>> read_directions(const RayArguments& arguments, std::size_t rays,
                                                    std::vector<std::string>& notes) {
   if (!arguments.directions.empty()) {
-    return read_points(arguments.directions, notes,
-                       {VectorRole::kDirection, arguments.directions == arguments.points});
+    return read_points(arguments.directions, notes, {VectorRole::kDirection, arguments.directions == arguments.points});
   }
   std::vector<float> all;
   for (std::size_t i = 0; i < rays; ++i) {
@@ -96,12 +95,12 @@ void add_ray_command(CLI::App& app, Context& context) {
       context.outcome = usage_error("--origins - --directions -: the standard input can be read once; name a file");
       return;
     }
-    context.outcome = answer_points(
-        context, *arguments,
-        [&](Client& client, const v1::SceneRef& scene, std::span<const float> origins, Table& table) {
-          return cast(context, client, scene, *arguments, origins, table);
-        },
-        {VectorRole::kOrigin});
+    context.outcome =
+        answer_points(context, *arguments,
+                      [&](Client& client, const v1::SceneRef& scene, std::span<const float> origins, Table& table) {
+                        return cast(context, client, scene, *arguments, origins, table);
+                      },
+                      {VectorRole::kOrigin});
   });
 }
 

@@ -68,7 +68,8 @@ absl::Status slice_scene(const Context& context, const SliceArguments& arguments
   if (arguments.output == "-" && context.json) {
     return usage_error("--json and results on the standard output do not go together; state -o FILE");
   }
-  if (auto status = check_output_ending(arguments.output, {".png", ".csv", ".npy", ".json"}); !status.ok()) return status;
+  if (auto status = check_output_ending(arguments.output, {".png", ".csv", ".npy", ".json"}); !status.ok())
+    return status;
   if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
   const auto slice = request_slice(context, arguments);
   if (!slice.ok()) return slice.status();

@@ -7,17 +7,20 @@
 
 namespace isofield {
 
+// `place`: where the character is known to be, or from where on to look for it; end_: it is not in the block.
+void FileLines::find_next(char wanted, std::size_t& place) const {
+  place = std::max(place, begin_);
+  if (place >= end_ || block_[place] == wanted) return;
+  const void* const found = std::memchr(&block_[place], wanted, end_ - place);
+  place = found ? static_cast<std::size_t>(static_cast<const char*>(found) - block_.data()) : end_;
+}
+
 // Nullptr: the line goes on beyond the block.
 const char* FileLines::find_line_end() {
-  const char* const block = block_.data();
-  if (next_lf_ < begin_ || (next_lf_ < end_ && block[next_lf_] != '\n')) {
-    const std::size_t from = std::max(begin_, next_lf_);
-    const void* const lf = from < end_ ? std::memchr(block + from, '\n', end_ - from) : nullptr;
-    next_lf_ = lf ? static_cast<std::size_t>(static_cast<const char*>(lf) - block) : end_;
-  }
-  const void* const cr = next_lf_ > begin_ ? std::memchr(block + begin_, '\r', next_lf_ - begin_) : nullptr;
-  if (cr) return static_cast<const char*>(cr);
-  return next_lf_ < end_ ? block + next_lf_ : nullptr;
+  find_next('\n', next_lf_);
+  find_next('\r', next_cr_);
+  const std::size_t end = std::min(next_lf_, next_cr_);
+  return end < end_ ? block_.data() + end : nullptr;
 }
 
 absl::StatusOr<bool> FileLines::next(absl::string_view& line, const char* expected) {
@@ -48,7 +51,7 @@ absl::StatusOr<bool> FileLines::next(absl::string_view& line, const char* expect
 absl::Status FileLines::fill(const char* expected) {
   std::memmove(block_.data(), block_.data() + begin_, end_ - begin_);
   end_ -= begin_;
-  next_lf_ = end_;
+  next_lf_ = next_cr_ = end_;
   begin_ = 0;
   if (end_ == block_.size()) {
     return absl::InvalidArgumentError(

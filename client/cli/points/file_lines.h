@@ -27,6 +27,7 @@ class FileLines {
   absl::Status refuse(absl::string_view text, absl::string_view expected) const;
 
  private:
+  void find_next(char wanted, std::size_t& place) const;
   const char* find_line_end();
   absl::Status fill(const char* expected);
 
@@ -35,9 +36,9 @@ class FileLines {
   std::vector<char> block_ = std::vector<char>(kBlockBytes);
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
-  // Where the next LF is known to be, or end_: none up to there. A text with CR alone would be searched again for each
-  // line.
+  // Where the next LF and CR are, or end_: none in the block. Each part of it is searched once.
   std::size_t next_lf_ = 0;
+  std::size_t next_cr_ = 0;
   std::size_t line_number_ = 0;
   bool at_end_ = false;
   bool after_cr_ = false;

@@ -123,7 +123,7 @@ std::optional<ImportOperator> import_operator(const std::string& name);
 //  - Files of Tinker, whose atoms are numbered, are recognised.
 // Points: lines "x y z" as soft objects w(distance / R), that is radius r0 R and range (1 - r0) R.
 //  - With a header the columns x, y and z, in any order, and as R the column "radius" (or "r", where there is no "g"
-//    beside it). Case, quotes and a unit, as in "X (um)", do not matter; "position x", "pos_x" and the like do where
+//    beside it). Case, quotes and a unit, as in "X (um)", do not matter; "position x", "pos_x" and the like serve where
 //    x, y, z are not there. INVALID_ARGUMENT: the header names no x, y, z, or one of them twice.
 //  - Without a header the first three columns; the report mentions others. ImportOptions::radius_column is R's.
 //  - Cells are parted by commas, semicolons, tabs or blanks. Decimal commas are read between semicolons.
@@ -145,7 +145,8 @@ struct LoadedScene {
   std::optional<ImportReport> report;
 };
 
-// A file that is a scene (proto3 JSON or the binary message) as it is, any other as import_file() does; its content tells.
+// A file that is a scene (proto3 JSON or the binary message) as it is, any other as import_file() does; its content
+// tells.
 absl::StatusOr<LoadedScene> load_scene_file(const std::string& path, const ImportOptions& options);
 
 }  // namespace isofield

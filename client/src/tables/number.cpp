@@ -4,7 +4,6 @@
 #include <absl/strings/charconv.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -24,15 +23,9 @@ const char* scan_fortran_double(const char* begin, const char* exponent, const c
 
 }  // namespace
 
-const char* scan_double(const char* begin, const char* end, double& value) {
-  if (begin != end && *begin == '+') {
-    ++begin;
-    if (begin != end && *begin == '-') return nullptr;
-  }
+const char* scan_rare_double(const char* begin, const char* end, double& value) {
   const auto [after, error] = std::from_chars(begin, end, value);
-  if (error == std::errc()) {
-    return after != end && (*after == 'D' || *after == 'd') ? scan_fortran_double(begin, after, end, value) : after;
-  }
+  if (error == std::errc()) return scan_fortran_double(begin, after, end, value);
   if (error != std::errc::result_out_of_range) return nullptr;
   // The standard function does not say whether the number is too large or too small; this one leaves the nearest.
   absl::from_chars(begin, end, value);

@@ -37,6 +37,8 @@ bool is_header(absl::string_view line, Separator separator) {
 }  // namespace
 
 bool is_comment(absl::string_view line) {
+  // Rows, which are nearly all lines, begin with a digit or a sign.
+  if (!line.empty() && (absl::ascii_isdigit(line.front()) || line.front() == '-')) return false;
   line = absl::StripAsciiWhitespace(line);
   return line.empty() || line.front() == '#' || line.front() == '%' || absl::StartsWith(line, "//");
 }
