@@ -142,7 +142,8 @@ JsonObject& JsonObject::set(const std::string& key, const std::vector<JsonObject
 }
 
 JsonObject& JsonObject::set_text(const std::string& key, std::string text) {
-  const auto there = std::find_if(fields_.begin(), fields_.end(), [&](const auto& field) { return field.first == key; });
+  const auto there =
+      std::find_if(fields_.begin(), fields_.end(), [&](const auto& field) { return field.first == key; });
   if (there != fields_.end()) {
     there->second = std::move(text);
   } else {

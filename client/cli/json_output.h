@@ -16,8 +16,8 @@ namespace isofield {
 class JsonObject {
  public:
   JsonObject() = default;
-  // Starts with the fields of a message, under the contract's names. Those that are not set are there with their defaults,
-  // except optional ones and messages. Enum values are names, bytes Base64.
+  // Starts with the fields of a message, under the contract's names. Those that are not set are there with their
+  // defaults, except optional ones and messages. Enum values are names, bytes Base64.
   explicit JsonObject(const google::protobuf::Message& message);
 
   JsonObject& set(const std::string& key, double value);

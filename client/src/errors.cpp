@@ -28,7 +28,7 @@ absl::Status from_grpc(const grpc::Status& status, const std::string& address) {
         return absl::UnavailableError(absl::StrCat("nothing listens at ", address, "; start isofieldd there"));
       }
       return absl::UnavailableError(
-          absl::StrCat("no isofieldd answers at ", address, " (", detail, "); is the address right, and isofieldd up?"));
+          absl::StrCat("no isofieldd answers at ", address, " (", detail, "); is the address right, and is it up?"));
     case absl::StatusCode::kDeadlineExceeded:
       return absl::DeadlineExceededError(
           absl::StrCat("isofieldd at ", address, " did not finish in time (", detail, "); allow it a longer timeout"));

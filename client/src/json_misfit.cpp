@@ -79,8 +79,8 @@ class Walker {
   }
   bool syntax(absl::string_view expected) {
     const absl::string_view rest = text_.substr(std::min(at_, text_.size()));
-    const std::string found =
-        rest.empty() ? "the text ends" : absl::StrCat("\"", rest.substr(0, std::min<std::size_t>(rest.find('\n'), 20)), "\"");
+    const std::size_t length = std::min<std::size_t>(rest.find('\n'), 20);
+    const std::string found = rest.empty() ? "the text ends" : absl::StrCat("\"", rest.substr(0, length), "\"");
     return fail(JsonMisfit::Kind::kSyntax, at_, absl::StrCat(found, " where ", expected, " was expected"));
   }
   // `path` is what `text` is about: "nodes[2].sphere".

@@ -46,8 +46,9 @@ class References {
     std::vector<std::string> names;
     for (const auto& [name, index] : names_) names.push_back(name);
     std::sort(names.begin(), names.end());
-    return absl::InvalidArgumentError(absl::StrCat(what, " ", base::quoted(reference), " is no node: expected a node's name, or #0 to #",
-                                                   node_count - 1, did_you_mean(reference, names)));
+    return absl::InvalidArgumentError(absl::StrCat(what, " ", base::quoted(reference),
+                                                   " is no node: expected a node's name, or #0 to #", node_count - 1,
+                                                   did_you_mean(reference, names)));
   }
 
   // Nothing when the reference is to no node.
@@ -115,7 +116,9 @@ absl::Status check_operand_count(const Node& node) {
   } else if (wanted.most <= kMaxOperands) {
     expected = absl::StrCat(wanted.least, " to ", wanted.most, " children");
   }
-  if (count == 0) return absl::InvalidArgumentError(absl::StrCat(node.path, ".children is missing: expected ", expected));
+  if (count == 0) {
+    return absl::InvalidArgumentError(absl::StrCat(node.path, ".children is missing: expected ", expected));
+  }
   return absl::InvalidArgumentError(
       absl::StrCat(node.path, ".children = [", count, count == 1 ? " child" : " children", "]: expected ", expected));
 }

@@ -21,8 +21,8 @@
 namespace isofield::daemon {
 namespace {
 
-// Accepts whole numbers within [least, most]. CLI11's own range also takes "5x" for a number, and does not say what kind
-// it expects.
+// Accepts whole numbers within [least, most]. CLI11's own range also takes "5x" for a number, and does not say what
+// kind it expects.
 CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
   const std::string range = absl::StrCat("within [", least, ", ", most, "]");
   return CLI::Validator(
@@ -172,14 +172,16 @@ absl::StatusOr<std::vector<std::string>> flags_of_file(const Options& options, c
       const std::string fault = fault_of(line.key, line.value);
       if (!fault.empty()) status = absl::InvalidArgumentError(fault);
     }
-    if (!status.ok()) return absl::InvalidArgumentError(absl::StrCat(place, " = ", line.written, ": ", status.message()));
+    if (!status.ok()) {
+      return absl::InvalidArgumentError(absl::StrCat(place, " = ", line.written, ": ", status.message()));
+    }
     flags.push_back(absl::StrCat("--", line.key, "=", line.value));
   }
   return flags;
 }
 
-// The environment's settings as flags. An empty variable counts as none. A variable that is named nearly as an option's is
-// refused; others may be another program's, or a cluster's.
+// The environment's settings as flags. An empty variable counts as none. A variable that is named nearly as an option's
+// is refused; others may be another program's, or a cluster's.
 absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& options) {
   std::vector<std::string> variables, flags;
   for (const Options::Settable& settable : options.settable) variables.push_back(settable.variable);
@@ -236,7 +238,8 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   try {
     parse(stated, flags);
   } catch (const CLI::Success& success) {
-    for (const Options::Settable& settable : stated.settable) settable.option->envname(settable.variable);  // for --help
+    // For --help, which lists them.
+    for (const Options::Settable& settable : stated.settable) settable.option->envname(settable.variable);
     return {std::nullopt, stated.app.exit(success)};
   } catch (const CLI::ParseError& error) {
     return refuse(explain(stated, error));

@@ -77,14 +77,20 @@ void Engine::drop(std::uint64_t version) {
   resident_.erase(it);
 }
 
+// A kernel is compiled here, where nobody waits for it who does not need it.
+absl::Status Engine::prepare(const PointBatch& batch) {
+  RequestTimes unasked;
+  const TimedScope timed(batch.times ? *batch.times : unasked);
+  return fields_.prepare(*batch.scene, batch.quantity);
+}
+
 absl::Status Engine::evaluate(const PointBatch& batch) {
-  // A kernel is compiled here, where nobody waits for it who does not need it.
-  ISOFIELD_RETURN_IF_ERROR(fields_.prepare(*batch.scene, batch.quantity));
+  ISOFIELD_RETURN_IF_ERROR(prepare(batch));
   return queue_.evaluate(batch);
 }
 
 void Engine::submit(PointBatch batch, EvaluationQueue::Done done) {
-  if (const absl::Status s = fields_.prepare(*batch.scene, batch.quantity); !s.ok()) return done(s);
+  if (const absl::Status s = prepare(batch); !s.ok()) return done(s);
   queue_.submit(std::move(batch), std::move(done));
 }
 

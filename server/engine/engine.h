@@ -72,6 +72,7 @@ class Engine {
  private:
   Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue,
          const TierTwoOptions& tier_two, const KernelOptions& kernels);
+  absl::Status prepare(const PointBatch& batch);
 
   std::unique_ptr<gpu::Device> device_;
   blobtree::SceneLimits limits_;

@@ -103,15 +103,15 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
     for (int i = 0; i < 2; ++i) counts[i] = std::ceil(extents[i] / spacing[i] * (1 - 1e-6)) + 1;
   }
   if (!(counts[0] * counts[1] <= static_cast<double>(max_points))) {
-    return absl::ResourceExhaustedError(absl::StrCat("counts = [", counts[0], ", ", counts[1], "]: at most ", max_points,
-                                                     " points are admitted; ask for parts of it"));
+    return absl::ResourceExhaustedError(absl::StrCat("counts = [", counts[0], ", ", counts[1], "]: at most ",
+                                                     max_points, " points are admitted; ask for parts of it"));
   }
   for (int i = 0; i < 2; ++i) {
     plane.counts[i] = static_cast<std::uint32_t>(counts[i]);
     plane.spacing[i] = spacing[i];
     if (!(counts[i] * spacing[i] <= blobtree::kMaxCoordinate)) {
-      return absl::InvalidArgumentError(absl::StrCat("spacing = ", spacing[i], ": expected a plane of a length of at most ",
-                                                     blobtree::kMaxCoordinate));
+      return absl::InvalidArgumentError(absl::StrCat(
+          "spacing = ", spacing[i], ": expected a plane of a length of at most ", blobtree::kMaxCoordinate));
     }
   }
   if (!request.origin().empty()) {

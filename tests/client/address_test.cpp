@@ -27,7 +27,8 @@ TEST(Address, RefusesAllElseAndNamesTheForms) {
 }
 
 TEST(Errors, SayWhatToDo) {
-  const auto status = from_grpc(grpc::Status(grpc::StatusCode::UNAVAILABLE, "failed to connect: Connection refused"), "unix:/x");
+  const auto status =
+      from_grpc(grpc::Status(grpc::StatusCode::UNAVAILABLE, "failed to connect: Connection refused"), "unix:/x");
   EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
   EXPECT_TRUE(absl::StrContains(status.message(), "nothing listens at unix:/x; start isofieldd there")) << status;
   EXPECT_TRUE(absl::StrContains(

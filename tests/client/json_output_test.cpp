@@ -47,8 +47,8 @@ TEST(JsonObject, TextsAreAlwaysUtf8) {
   JsonObject object;
   object.set("a", std::string("\"\\\n\t\x01 \xc3\xbc \xff \xe2\x82 \xed\xa0\x80 \xf0\x9f\x98\x80"));
   const std::string bad = "\xef\xbf\xbd";
-  EXPECT_EQ(object.text(), "{\"a\":\"\\\"\\\\\\n\\u0009\\u0001 \xc3\xbc " + bad + " " + bad + bad + " " + bad + bad + bad +
-                               " \xf0\x9f\x98\x80\"}");
+  EXPECT_EQ(object.text(), "{\"a\":\"\\\"\\\\\\n\\u0009\\u0001 \xc3\xbc " + bad + " " + bad + bad + " " + bad + bad +
+                               bad + " \xf0\x9f\x98\x80\"}");
 }
 
 }  // namespace

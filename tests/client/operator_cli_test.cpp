@@ -22,7 +22,8 @@ TEST_F(OperatorCliTest, KeepsOperators) {
   const auto shown = read_operator_file(path("again.json"));
   ASSERT_TRUE(shown.ok()) << shown.status();
   EXPECT_EQ(shown->gradient().silhouette().k(), 0.5);
-  EXPECT_TRUE(absl::StrContains(err_, "  silhouette.k: a strength within [0, 1], of a bulge only; default: 0\n")) << err_;
+  EXPECT_TRUE(absl::StrContains(err_, "  silhouette.k: a strength within [0, 1], of a bulge only; default: 0\n"))
+      << err_;
   EXPECT_EQ(run("operator rm other"), 0);
   EXPECT_EQ(out_, "other: deleted\n");
   EXPECT_EQ(run("operator rm other"), 1);

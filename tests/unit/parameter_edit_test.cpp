@@ -11,7 +11,8 @@ namespace {
 using test_support::scene_of_nodes;
 
 v1::Scene scene() {
-  return scene_of_nodes(R"({"name": "bar", "segment": {"a": [0,0,0], "b": [1,0,0], "radius_a": 1, "radius_b": 1, "range": 1}},
+  return scene_of_nodes(R"({"name": "bar", "segment": {"a": [0,0,0], "b": [1,0,0], "radius_a": 1, "radius_b": 1,
+                                                       "range": 1}},
                            {"name": "all", "gradient": {"children": ["bar"], "opening": {"preset": "CAMEL"}}},
                            {"name": "pair", "superelliptic": {"children": ["all"], "exponent": 2, "ranges": [1, 2]}},
                            {"name": "sum", "sum": {"children": ["bar"]}})");
@@ -28,7 +29,9 @@ void expect_refused(const ParameterEdit& edit, const std::vector<std::string>& p
 
 TEST(ParameterEdit, TakesTheNamesOfTheContractAndOfJson) {
   v1::Scene edited = scene();
-  ASSERT_TRUE(apply_edits({{"bar", "radius_a", {2}}, {"bar", "radiusB", {3}}, {"#1", "opening.alpha0", {4}}}, edited).ok());
+  const std::vector<ParameterEdit> edits{
+      {"bar", "radius_a", {2}}, {"bar", "radiusB", {3}}, {"#1", "opening.alpha0", {4}}};
+  ASSERT_TRUE(apply_edits(edits, edited).ok());
   EXPECT_EQ(edited.nodes(0).segment().radius_a(), 2);
   EXPECT_EQ(edited.nodes(0).segment().radius_b(), 3);
   EXPECT_EQ(edited.nodes(1).gradient().opening().alpha0(), 4);

@@ -162,8 +162,8 @@ void add_catalog_commands(CLI::App& app, Context& context) {
   command
       ->add_option("EDITS", arguments->edits,
                    "NODE.FIELD=NUMBER[,NUMBER..] ..., such as arm.radius=2 '#0.center=1,0,0' bar.radiusA=0.1 "
-                   "all.opening.alpha0=10. A node is its name or #i, its place in the scene from 0; a field's name is the "
-                   "one of scene.proto or of JSON")
+                   "all.opening.alpha0=10. A node is its name or #i, its place in the scene from 0; a field's name is "
+                   "the one of scene.proto or of JSON")
       ->required();
   command->add_option("--expect-version", arguments->version, "Only when the scene has this version (default: 0, any)")
       ->check(whole(0, UINT64_MAX));

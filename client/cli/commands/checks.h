@@ -5,8 +5,8 @@
 
 namespace isofield {
 
-// What options and arguments are checked with; each says what it expects. CLI11's own checks pass NaN and take "5x" for a
-// number, and their messages print the greatest double.
+// What options and arguments are checked with; each says what it expects. CLI11's own checks pass NaN and take "5x" for
+// a number, and their messages print the greatest double.
 
 // A finite number above 0.
 CLI::Validator positive();

@@ -26,8 +26,8 @@ struct Arguments {
 // Coordinates of a thousand millionth to a thousand million of model units stay well within float32.
 constexpr double kLeastScale = 1e-18, kMostScale = 1e18;
 
-// Chooses the unit of the file's coordinates. A GLB is in metres where the scene's unit is known; others stay in model units
-// unless told otherwise. A note that is left in `warnings` says where a unit was not understood.
+// Chooses the unit of the file's coordinates. A GLB is in metres where the scene's unit is known; others stay in model
+// units unless told otherwise. A note that is left in `warnings` says where a unit was not understood.
 absl::StatusOr<FileUnit> file_unit(const Arguments& arguments, MeshFormat format, const std::string& scene_unit,
                                    std::vector<std::string>& warnings) {
   if (arguments.scale) {

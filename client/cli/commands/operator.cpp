@@ -149,7 +149,8 @@ void add_operator_commands(CLI::App& app, Context& context) {
   CLI::App* command = all->add_subcommand("ls", "List the built-in operators and the server's custom ones");
   command->callback([&context] { context.outcome = list(context); });
 
-  command = all->add_subcommand("show", "Print an operator as JSON, and what its parameters accept and are by default (on the standard error)");
+  command = all->add_subcommand(
+      "show", "Print an operator as JSON, and on the standard error what its parameters accept and their defaults");
   command->add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it")->required();
   command->callback([&context, arguments] { context.outcome = show(context, arguments->name); });
 
@@ -166,7 +167,10 @@ void add_operator_commands(CLI::App& app, Context& context) {
   add_operator_plot_command(*all, context);
 
   const auto picked = std::make_shared<PickArguments>();
-  command = all->add_subcommand("pick", "Tell the opening angle at which the blend of a node's two children would begin at a point of the first one's surface");
+  command = all->add_subcommand(
+      "pick",
+      "Tell the opening angle at which the blend of a node's two children would begin at a point of the first one's "
+      "surface");
   command->add_option("SCENE", picked->scene, "A file, or else a name on the server")->required();
   command->add_option("NODE", picked->node, "A node of two children, by name or #i")->required();
   command->add_option("X", picked->point[0], "A point X Y Z of the first child's surface, in the node's own frame")

@@ -16,10 +16,11 @@ void add_project_command(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "project",
-      "Project points onto the surface along the gradient: x,y,z,nx,ny,nz,converged,residual,out_of_reach. Points where the "
-      "field is constant are out of reach, for no gradient leads from there: those outside of all supports (farther from "
-      "every primitive than its range) and, of positive fields, those deep inside of one. They stay where they are, with "
-      "out_of_reach 1, converged 0 and an infinite residual. So do points whose way ends in such a place");
+      "Project points onto the surface along the gradient: x,y,z,nx,ny,nz,converged,residual,out_of_reach. Points "
+      "where the field is constant are out of reach, for no gradient leads from there: those outside of all supports "
+      "(farther from every primitive than its range) and, of positive fields, those deep inside of one. They stay "
+      "where they are, with out_of_reach 1, converged 0 and an infinite residual. So do points whose "
+      "way ends in such a place");
   arguments->add_to(*command, "--points");
   command
       ->add_option("--tolerance", arguments->tolerance,

@@ -74,7 +74,9 @@ void add_ray_command(CLI::App& app, Context& context) {
       ->delimiter(',')
       ->expected(3)
       ->excludes(each);
-  command->add_option("--max-distance", arguments->max_distance, "Where the rays end, in model units from their origins (default: nowhere)")
+  command
+      ->add_option("--max-distance", arguments->max_distance,
+                   "Where the rays end, in model units from their origins (default: nowhere)")
       ->check(positive());
   command
       ->add_option("--cell", arguments->cell,

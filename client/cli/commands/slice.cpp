@@ -99,13 +99,13 @@ void add_slice_command(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<SliceArguments>();
   CLI::App* command = app.add_subcommand(
       "slice",
-      "Evaluate the field on a part of a plane, and draw it. By default that is the plane of normal z through the middle of "
-      "the box that holds the field's support, over the whole box");
+      "Evaluate the field on a part of a plane, and draw it. By default that is the plane of normal z through the "
+      "middle of the box that holds the field's support, over the whole box");
   command->add_option("SCENE", arguments->scene, "A file, or else a name on the server")->required();
   command
       ->add_option("--origin", arguments->origin,
-                   "x,y,z in model units: the first sample, lower left in a picture (default: so that the middle of the "
-                   "samples is the middle of the box)")
+                   "x,y,z in model units: the first sample, lower left in a picture (default: so that the middle of "
+                   "the samples is the middle of the box)")
       ->check(number())
       ->delimiter(',')
       ->expected(3);

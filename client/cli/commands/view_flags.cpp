@@ -76,8 +76,8 @@ void ViewFlags::add_to(CLI::App& command) {
       ->group(kGroup);
   command
       .add_option("--view-file", file_,
-                  "A JSON file that keeps the camera: target, distance, direction, up and field_of_view. Read where it is "
-                  "there; options override it; what the picture was taken with is written back")
+                  "A JSON file that keeps the camera: target, distance, direction, up and field_of_view. Read where "
+                  "it is there; options override it; what the picture was taken with is written back")
       ->group(kGroup);
 }
 

@@ -19,8 +19,8 @@ class ViewFlags {
  public:
   void add_to(CLI::App& command);
 
-  // What the file keeps, where there is one, with what the options say instead. Errors of the file are a file's, others of
-  // usage.
+  // What the file keeps, where there is one, with what the options say instead. Errors of the file are a file's, others
+  // of usage.
   absl::StatusOr<View> view() const;
   // Writes the view that a picture was taken from into the file, where one is named and holds another.
   absl::Status keep(const View& view) const;

@@ -19,7 +19,8 @@ absl::Status watch(const Context& context, const PictureFlags& flags) {
   const std::string& path = flags.mesh.scene;
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored) || std::filesystem::is_directory(path, ignored)) {
-    return file_error(absl::NotFoundError(absl::StrCat(path, ": no such file; a scene of the server cannot be watched")));
+    return file_error(
+        absl::NotFoundError(absl::StrCat(path, ": no such file; a scene of the server cannot be watched")));
   }
   auto client = context.connect();
   if (!client.ok()) return client.status();
@@ -43,9 +44,10 @@ void add_watch_command(CLI::App& app, Context& context) {
   const auto flags = std::make_shared<PictureFlags>();
   CLI::App* command = app.add_subcommand(
       "watch",
-      "Draw a picture of a file, and again whenever the file changes, until SIGINT (Ctrl-C) or SIGTERM. Faults of the file "
-      "are printed, and the picture stays as it is. Without --view-file the model fills each picture");
+      "Draw a picture of a file, and again whenever the file changes, until SIGINT (Ctrl-C) or SIGTERM. Faults of the "
+      "file are printed, and the picture stays as it is. Without --view-file the model fills each picture");
   flags->add_to(*command);
+  command->get_option("SCENE")->description("A file: a scene (.json, .pb), or one that can be imported, such as .swc");
   command->callback([&context, flags] { context.outcome = watch(context, *flags); });
 }
 

@@ -24,21 +24,22 @@ const absl::flat_hash_map<std::string, ParameterRange>& ranges() {
       {"Opening.preset", {"", "camel, where no other parameter of the opening is stated"}},
       {"Opening.alpha0", {"degrees within [0, 180], below alpha1", "the preset's: camel 0, organic 0, contact 0"}},
       {"Opening.alpha1", {"degrees between alpha0 and alpha2", "the preset's: camel 90, organic 60, contact 90"}},
-      {"Opening.alpha2", {"degrees within [0, 180], above alpha1", "the preset's: camel 180, organic 135, contact 180"}},
+      {"Opening.alpha2",
+       {"degrees within [0, 180], above alpha1", "the preset's: camel 180, organic 135, contact 180"}},
       {"Opening.theta0", {kTangent, "the preset's: camel 45, organic 30, contact 0"}},
       {"Opening.theta1", {kTangent, "the preset's: camel 0, organic 0, contact 18"}},
       {"Opening.theta2", {kTangent, "the preset's: camel 45, organic 45, contact 45"}},
       {"Opening.w0", {"a slope within [0.05, 20]", "the preset's: camel 1, organic 3, contact 1"}},
       {"Opening.w1", {"a slope within [0.05, 20]", "the preset's: camel 1, organic 1, contact 0.7"}},
       {"Opening.samples",
-       {"3 to 4096 degrees within [0, 45], at even angles from 0 to 180 degrees, instead of all other parameters of the "
-        "opening",
+       {"3 to 4096 degrees within [0, 45], at even angles from 0 to 180 degrees, instead of all other parameters of "
+        "the opening",
         "none"}},
       {"Silhouette.kind", {"", "smooth, or sampled where there are samples"}},
       {"Silhouette.k", {"a strength within [0, 1], of a bulge only", "0"}},
       {"Silhouette.samples",
-       {"3 to 4096 distances from the origin at even angles from 0 to 90 degrees, the first and the last 1, of a sampled "
-        "silhouette only",
+       {"3 to 4096 distances from the origin at even angles from 0 to 90 degrees, the first and the last 1, of a "
+        "sampled silhouette only",
         "none"}},
       {"BartheBlend.theta1", {kTangent, "0"}},
       {"BartheBlend.theta2", {kTangent, "0"}},

@@ -21,8 +21,8 @@ struct Parameter {
 // The same names, but for those of messages, each with what it accepts and its default.
 std::vector<Parameter> describe_parameters(const google::protobuf::Message& message);
 
-// "NAME=VALUE" into a field of an operator or an opening, by its name in the contract or in JSON ("by_angle", "byAngle").
-// Upper and lower case are the same; "theta0" finds
+// "NAME=VALUE" into a field of an operator or an opening, by its name in the contract or in JSON ("by_angle",
+// "byAngle"). Upper and lower case are the same; "theta0" finds
 // opening.theta0; the name of a message ("opening") means its enum field; lists are separated by commas.
 // INVALID_ARGUMENT: no such name or value; says which there are.
 absl::Status set_parameter(const std::string& assignment, google::protobuf::Message& message);

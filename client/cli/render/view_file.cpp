@@ -22,7 +22,8 @@ using google::protobuf::Struct;
 using google::protobuf::Value;
 
 const std::vector<std::string>& keys() {
-  static const auto* const kKeys = new std::vector<std::string>{"target", "distance", "direction", "up", "field_of_view"};
+  static const auto* const kKeys =
+      new std::vector<std::string>{"target", "distance", "direction", "up", "field_of_view"};
   return *kKeys;
 }
 
@@ -43,8 +44,9 @@ absl::StatusOr<View> read_view(const Struct& object) {
   View view;
   for (const auto& [key, value] : object.fields()) {
     if (std::find(keys().begin(), keys().end(), key) != keys().end()) continue;
-    return absl::InvalidArgumentError(absl::StrCat("no such field \"", key.substr(0, 60), "\"", did_you_mean(key, keys()),
-                                                   "; expected ", absl::StrJoin(keys(), ", ")));
+    return absl::InvalidArgumentError(absl::StrCat("no such field \"", key.substr(0, 60), "\"",
+                                                   did_you_mean(key, keys()), "; expected ",
+                                                   absl::StrJoin(keys(), ", ")));
   }
   for (const std::string& key : keys()) {
     const auto found = object.fields().find(key);
