@@ -9,6 +9,7 @@ import base64
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -19,7 +20,7 @@ SKIPPED = 77
 # The newest, then one that an older go can build.
 VERSIONS = ("latest", "v1.8.9")
 
-BALL = {"inline": {"nodes": [{"sphere": {"radius": 1}}]}}
+BALL = {"inline": {"nodes": [{"sphere": {"radius": 1, "range": 1}}]}}
 
 
 def skip(why):
@@ -48,6 +49,15 @@ def find_grpcurl(folder):
     skip(f"go cannot build grpcurl: {run.stderr[-400:]}")
 
 
+def snake_case(answer):
+    """An answer with the fields' names of the .proto files, which only newer versions print."""
+    if isinstance(answer, list):
+        return [snake_case(part) for part in answer]
+    if not isinstance(answer, dict):
+        return answer
+    return {re.sub("[A-Z]", lambda m: "_" + m[0].lower(), key): snake_case(part) for key, part in answer.items()}
+
+
 class Grpcurl:
     def __init__(self, program, address):
         self.program, self.address = program, address
@@ -69,7 +79,7 @@ class Grpcurl:
         answers, text = [], run.stdout.strip()
         while text:
             answer, end = json.JSONDecoder().raw_decode(text)
-            answers.append(answer)
+            answers.append(snake_case(answer))
             text = text[end:].strip()
         return answers
 
@@ -100,7 +110,7 @@ def check_reflection(grpcurl):
     for version in "v1", "v1alpha":
         (answer,) = grpcurl.call(f"grpc.reflection.{version}.ServerReflection/ServerReflectionInfo",
                                  {"list_services": "*"})
-        names = {service["name"] for service in answer["listServicesResponse"]["service"]}
+        names = {service["name"] for service in answer["list_services_response"]["service"]}
         assert names == set(services), (version, names)
 
 
@@ -142,7 +152,7 @@ def check_surfaces(grpcurl):
 
 
 def check_scenes(grpcurl):
-    scene = {"nodes": [{"name": "ball", "sphere": {"radius": 1}}]}
+    scene = {"nodes": [{"name": "ball", "sphere": {"radius": 1, "range": 1}}]}
     grpcurl.call("isofield.v1.SceneService/PutScene", {"name": "kept", "scene": scene})
     (part,) = grpcurl.call("isofield.v1.SceneService/GetSceneParts", {"name": "kept"})
     assert part["summary"]["name"] == "kept" and b"ball" in base64.b64decode(part["data"]), part
