@@ -2,6 +2,9 @@
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "isofield/import.h"
 #include "test_support.h"
 
@@ -97,23 +100,72 @@ TEST(SwcImport, DropsWhatCannotBeUsedAndSaysSo) {
   EXPECT_EQ(scene.nodes_size(), 4 + 1);
 }
 
-TEST(SwcImport, MendsRadii) {
-  const std::string text = "1 0 0 0 0 0 -1\n2 0 9 0 0 -3 1\n3 0 18 0 0 nan 2\n4 0 27 0 0 2 3\n5 0 36 0 0 7 4\n";
+TEST(SwcImport, MendsRadiiFromTheParentOrTheOption) {
+  const std::string text = "1 0 0 0 0 0 -1\n2 0 9 0 0 -3 1\n3 0 18 0 0 2 2\n4 0 27 0 0 nan 3\n5 0 36 0 0 0.1 4\n";
   const auto [scene, report] = import_swc_text(text);
-  EXPECT_EQ(count_of(report, "radius not > 0"), 3u);
+  EXPECT_EQ(count_of(report, "nearest descendant"), 1u);
+  EXPECT_EQ(count_of(report, "gets its parent's"), 2u);
+  // Never the least radius of the file, 0.1.
   EXPECT_EQ(scene.nodes(0).segment().radius_a(), 2);
-  ImportOptions options;
-  options.min_radius = 0.5;
-  EXPECT_EQ(import_swc_text(text, options).scene.nodes(0).segment().radius_a(), 0.5);
+  EXPECT_EQ(scene.nodes(0).segment().radius_b(), 2);
+  EXPECT_EQ(scene.nodes(2).segment().radius_b(), 2);
+  EXPECT_EQ(scene.nodes(3).segment().radius_b(), 0.1);
+  const auto floored = import_swc_text(text, {.min_radius = 0.5});
+  EXPECT_EQ(floored.scene.nodes(0).segment().radius_a(), 0.5);
+  EXPECT_EQ(floored.scene.nodes(3).segment().radius_b(), 0.5);
+  EXPECT_EQ(count_of(floored.report, "gets --min-radius"), 3u);
+  EXPECT_EQ(count_of(floored.report, "thinner than --min-radius"), 1u);
   const auto none = import_text("1 0 0 0 0 0 -1\n", ImportFormat::kSwc, {}, "test.swc");
   EXPECT_EQ(none.status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_TRUE(absl::StrContains(none.status().message(), "line 1: 1 0 0 0 0 0 -1")) << none.status();
   EXPECT_TRUE(absl::StrContains(none.status().message(), "--min-radius")) << none.status();
+}
+
+TEST(SwcImport, ProcessesOfAContourMeetItsSurface) {
+  std::string text;
+  for (int i = 0; i < 24; ++i) {
+    const double turn = i * 0.2617993877991494;
+    absl::StrAppend(&text, i + 1, " 1 ", 12 * std::cos(turn), " ", 5 * std::sin(turn), " 3 0 ", i == 0 ? -1 : i, "\n");
+  }
+  absl::StrAppend(&text, "30 3 20 9 7 1 1\n");
+  const auto [scene, report] = import_swc_text(text);
+  ASSERT_EQ(report.pieces, 2u);
+  EXPECT_NEAR(scene.nodes(0).ellipsoid().semi_axes(0), 12, 1e-3);
+  EXPECT_NEAR(scene.nodes(0).ellipsoid().semi_axes(1), 5, 1e-3);
+  EXPECT_NEAR(scene.nodes(0).ellipsoid().semi_axes(2), 8.5, 1e-3);
+  const auto& start = scene.nodes(1).segment().a();
+  EXPECT_NEAR(std::hypot(start[0] / 12, start[1] / 5, (start[2] - 3) / 8.5), 1, 1e-4);
+}
+
+TEST(SwcImport, EveryLengthIsOneThatTheServerTakes) {
+  // Ends of the range of coordinates and radii; segments may not be longer than 1e9.
+  const auto [scene, report] = import_swc_text(
+      "1 3 -2.5e8 -2.5e8 -2.5e8 1e-9 -1\n2 3 2.5e8 2.5e8 2.5e8 2.5e8 1\n3 3 2.6e8 0 0 1 2\n4 3 0 0 0 1e-10 2\n",
+      {.range_factor = 1e-5});
+  EXPECT_EQ(count_of(report, "a coordinate is not"), 1u);
+  EXPECT_EQ(count_of(report, "without a radius > 0 that a scene can hold"), 1u);
+  for (const auto& node : scene.nodes()) {
+    if (!node.has_segment()) continue;
+    const auto& s = node.segment();
+    EXPECT_LE(std::hypot(s.a(0) - s.b(0), s.a(1) - s.b(1), s.a(2) - s.b(2)), 1e9);
+    EXPECT_GE(s.range(), 1e-9);
+    EXPECT_GE(std::min(s.radius_a(), s.radius_b()), 1e-9);
+  }
+}
+
+TEST(SwcImport, ATextThatHoldsANeuronIsReadAsOne) {
+  const TemporaryDirectory folder;
+  const std::string neuron = write_file(folder.path("neuron.txt"), "# a\n1 1 +0.0e+00 0 0 6.0 -1\n2 3 0 8 0 1.2 1\n");
+  EXPECT_EQ(import_file(neuron, {})->report.format, "neuron (SWC)");
+  const std::string points = write_file(folder.path("points.txt"), "1 1 0\n2 3 0\n");
+  EXPECT_EQ(import_file(points, {})->report.format, "points (XYZ)");
 }
 
 TEST(SwcImport, CutsCyclesOnce) {
   const auto [scene, report] =
       import_swc_text("1 0 0 0 0 1 3\n2 0 9 0 0 1 1\n3 0 9 9 0 1 2\n4 0 9 18 0 1 3\n5 0 50 0 0 1 5\n6 0 60 0 0 1 5\n");
-  EXPECT_EQ(count_of(report, "its own ancestor"), 2u);
+  EXPECT_EQ(count_of(report, "its own ancestor"), 1u);
+  EXPECT_EQ(count_of(report, "is its own parent"), 1u);
   // 1-2, 2-3, 3-4 and 5-6; the closing edge is gone.
   EXPECT_EQ(report.pieces, 4u);
 }
@@ -180,7 +232,9 @@ TEST(SwcImport, HemibrainNeuron) {
   const auto imported = import_file(path, {});
   ASSERT_TRUE(imported.ok()) << imported.status();
   EXPECT_EQ(imported->report.read, 4465u);
-  EXPECT_EQ(imported->report.pieces, 4464u);
+  // 4,464 edges and the soma, less three edges within it.
+  EXPECT_EQ(imported->report.pieces, 4462u);
+  EXPECT_EQ(count_of(imported->report, "is the unit nm? --unit nm"), 1u);
   EXPECT_FALSE(imported->report.damaged());
 }
 
@@ -191,7 +245,8 @@ TEST(SwcImport, NeuromNeuron) {
   ASSERT_TRUE(imported.ok()) << imported.status();
   EXPECT_EQ(imported->report.read, 847u);
   EXPECT_EQ(count_of(imported->report, "edge of length 0 dropped"), 4u);
-  EXPECT_EQ(imported->report.pieces, 843u);
+  // 846 edges less those; the soma is a stack of two.
+  EXPECT_EQ(imported->report.pieces, 842u);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // What any gRPC tool finds: reflection, health, and GetInfo.
+#include <absl/strings/str_cat.h>
 #include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ TEST(Services, ReflectionDescribesThem) {
   const Peer peer(shared_daemon().address());
   for (const std::string& version : kReflections) {
     const auto describe = [&](const std::string& symbol) {
-      const std::string request = "\x22" + std::string(1, static_cast<char>(symbol.size())) + symbol;
+      const std::string request = absl::StrCat("\x22", std::string(1, static_cast<char>(symbol.size())), symbol);
       const RawAnswer answer = raw_call(peer.channel(), version, request);
       EXPECT_TRUE(ok(answer.status)) << version;
       return answer.message;
@@ -54,7 +55,7 @@ TEST(Services, ReflectionSaysWhatItDoesNotKnow) {
   const Peer peer(shared_daemon().address());
   const std::string name = "isofield.v1.No\nthing";
   const RawAnswer answer =
-      raw_call(peer.channel(), kReflections[0], "\x22" + std::string(1, static_cast<char>(name.size())) + name);
+      raw_call(peer.channel(), kReflections[0], absl::StrCat("\x22", std::string(1, static_cast<char>(name.size())), name));
   EXPECT_TRUE(ok(answer.status));
   EXPECT_NE(answer.message.find("no symbol is named 'isofield.v1.No\\nthing'"), std::string::npos);
 }
@@ -66,7 +67,7 @@ TEST(Services, HealthIsServing) {
   EXPECT_EQ(answer.message, kServing);
   for (const std::string name : {"isofield.v1.FieldService", "isofield.v1.SurfaceService"}) {
     const RawAnswer of_one = raw_call(peer.channel(), "/grpc.health.v1.Health/Check",
-                                      "\x0a" + std::string(1, static_cast<char>(name.size())) + name);
+                                      absl::StrCat("\x0a", std::string(1, static_cast<char>(name.size())), name));
     EXPECT_TRUE(ok(of_one.status)) << name;
     EXPECT_EQ(of_one.message, kServing) << name;
   }
@@ -98,7 +99,7 @@ TEST(Services, RequestsThatCannotBeReadAreInvalidArguments) {
   const Peer peer(shared_daemon().address());
   EXPECT_GE(all_methods().size(), 23u);
   for (const auto* method : all_methods()) {
-    const std::string name = "/" + method->service()->full_name() + "/" + method->name();
+    const std::string name = absl::StrCat("/", method->service()->full_name(), "/", method->name());
     // A message that ends within a field, and one whose first tag is none.
     std::vector<std::string> messages{std::string("\x0a\xff\xff\xff\x7f", 5), std::string(64, '\xff')};
     // A string that is no UTF-8, where the request begins with one.

@@ -95,8 +95,12 @@ TEST(GridParts, FollowOneAnotherAndKeepTheLimit) {
         EXPECT_TRUE(columns == nx || rows * layers == 1) << "points of one row";
         EXPECT_TRUE(rows == ny || layers == 1) << "rows of one layer";
         // Whole layers wherever a part holds one.
-        if (most >= nx * ny) EXPECT_EQ(columns * rows, nx * ny);
-        if (most >= nx) EXPECT_EQ(columns, nx);
+        if (most >= nx * ny) {
+          EXPECT_EQ(columns * rows, nx * ny);
+        }
+        if (most >= nx) {
+          EXPECT_EQ(columns, nx);
+        }
         next += columns * rows * layers;
       }
       EXPECT_EQ(next, nx * ny * nz) << most;

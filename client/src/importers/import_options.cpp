@@ -42,7 +42,8 @@ absl::Status check(const ImportOptions& options) {
 
 double range_of(const ImportOptions& options, double factor, double radius) {
   const double range = options.range.value_or(options.range_factor.value_or(factor) * radius);
-  return std::clamp(range, kLeastLength, kLargestLength);
+  // The server checks the product with a placement's scale, which rounding takes above 1.
+  return std::clamp(range, kLeastLength, kLargestLength * (1 - 1e-6));
 }
 
 std::vector<int> find_pieces(const v1::Scene& scene) {

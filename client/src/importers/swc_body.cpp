@@ -62,6 +62,12 @@ void add_transform(const std::array<Vector3, 3>& axes, const Vector3& origin, v1
   }
 }
 
+// The range of a shape below a transform with these axes: the server takes lengths before and after it, and rounds.
+double range_within(const std::array<Vector3, 3>& axes, double range) {
+  const auto [least, most] = std::minmax({1.0, length(axes[0]), length(axes[1]), length(axes[2])});
+  return std::clamp(range, 2 * kLeastLength / least, kLargestLength / (2 * most));
+}
+
 // The coordinate axis that a unit vector lies along, to rounding; 3 for none.
 std::size_t axis_of(const Vector3& unit) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -72,7 +78,8 @@ std::size_t axis_of(const Vector3& unit) {
 
 void add_ellipsoid(const Contour& contour, const ImportOptions& options, v1::Scene& scene) {
   v1::Ellipsoid& shape = *scene.add_nodes()->mutable_ellipsoid();
-  shape.set_range(range_of(options, kSwcRangeFactor, contour.minor_length));
+  const double range = range_of(options, kSwcRangeFactor, contour.minor_length);
+  shape.set_range(range);
   Vector3 lengths = {contour.major_length, contour.minor_length, third_axis(contour)};
   const std::size_t major = axis_of(contour.major), minor = axis_of(contour.minor);
   if (major < 3 && minor < 3) {
@@ -85,7 +92,9 @@ void add_ellipsoid(const Contour& contour, const ImportOptions& options, v1::Sce
     return;
   }
   set(lengths, *shape.mutable_semi_axes());
-  add_transform({contour.major, contour.minor, contour.normal}, contour.center, scene);
+  const std::array<Vector3, 3> axes = {contour.major, contour.minor, contour.normal};
+  shape.set_range(range_within(axes, range));
+  add_transform(axes, contour.center, scene);
 }
 
 void add_hull(const ContourStack& stack, std::size_t below, const ImportOptions& options, v1::Scene& scene) {
@@ -95,10 +104,8 @@ void add_hull(const ContourStack& stack, std::size_t below, const ImportOptions&
   set(solid.b, *segment.mutable_b());
   segment.set_radius_a(solid.radius_a);
   segment.set_radius_b(solid.radius_b);
-  // The map may shorten the range, which must remain a length that the server takes.
-  const double range = range_of(options, kSwcRangeFactor, std::max(solid.radius_a, solid.radius_b));
-  const double shortest = std::min({1.0, length(stack.axes[1]), length(stack.axes[2])});
-  segment.set_range(std::max(range, 2 * kLeastLength / shortest));
+  const double radius = std::max(solid.radius_a, solid.radius_b);
+  segment.set_range(range_within(stack.axes, range_of(options, kSwcRangeFactor, radius)));
   add_transform(stack.axes, stack.origin, scene);
 }
 

@@ -16,6 +16,8 @@ namespace isofield {
 namespace {
 
 constexpr std::size_t kColumns = 7;
+// The server takes segments up to kLargestLength, and these coordinates are at most 0.87 of it apart.
+constexpr double kFarthest = kLargestLength / 4;
 enum Column { kId, kType, kX, kRadius = 5, kParent };
 
 // The data of a line: what stands before a comment.
@@ -77,10 +79,10 @@ class SampleReader {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto coordinate = parse_double(fields[kX + axis]);
       sample.center[axis] = coordinate.value_or(NAN) * scale_[axis];
-      if (!(std::abs(sample.center[axis]) <= kLargestLength)) {
+      if (!(std::abs(sample.center[axis]) <= kFarthest)) {
         return damage(absl::StrCat("sample dropped: a coordinate is not a finite number of a usable size (magnitude at "
                                    "most ",
-                                   kLargestLength, ")"));
+                                   kFarthest, ")"));
       }
     }
     if (!ids_.insert(*id).second) return damage("sample dropped: its id was used before");
@@ -88,7 +90,7 @@ class SampleReader {
     if (!type) damage("sample given the type 0 (undefined): its type is not a whole number");
     sample.type = type.value_or(0);
     const double radius = parse_double(fields[kRadius]).value_or(NAN) * radius_scale_;
-    sample.radius = radius >= kLeastLength && radius <= kLargestLength ? radius : 0;
+    sample.radius = radius >= kLeastLength && radius <= kFarthest ? radius : 0;
     const auto parent = parse_integer64(fields[kParent]);
     if (!parent) damage("sample made a root: its parent is not a whole number of at most 64 bits");
     sample.parent_id = parent.value_or(-1);
