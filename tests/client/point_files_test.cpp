@@ -93,7 +93,7 @@ TEST(PointFiles, AreImportedAsTheyAreRead) {
 }
 
 TEST(PointFiles, WithoutTheColumnsCannotBeImported) {
-  for (const char* const file : {"no_z.csv", "x_twice.csv", "slice_output.csv", "labels_without_header.csv"}) {
+  for (const char* const file : {"no_z.csv", "x_twice.csv", "slice_output.csv"}) {
     const auto imported = import_file(absl::StrCat(kFolder, file), {});
     EXPECT_EQ(imported.status().code(), absl::StatusCode::kInvalidArgument) << file;
     EXPECT_TRUE(absl::StrContains(imported.status().message(), "the columns are ")) << imported.status();
