@@ -125,11 +125,33 @@ class Options {
   }
 };
 
+// Parses the arguments, which CLI11 takes from the end.
+void parse(Options& options, std::vector<std::string> arguments) {
+  std::reverse(arguments.begin(), arguments.end());
+  options.app.parse(arguments);
+}
+
+bool is_flag(const CLI::Option& option) {
+  return option.get_items_expected_min() == 0;
+}
+
+// Appends a setting as it would stand on the command line. "--device=" would be one without a value.
+void append_setting(const CLI::Option& option, const std::string& name, const std::string& value,
+                    std::vector<std::string>& arguments) {
+  if (is_flag(option)) {
+    arguments.push_back(absl::StrCat("--", name, "=", value));
+  } else {
+    arguments.insert(arguments.end(), {"--" + name, value});
+  }
+}
+
 // What is wrong with one setting by itself: "expected ...", or nothing.
 std::string fault_of(const std::string& name, const std::string& value) {
   Options options("");
+  std::vector<std::string> arguments;
+  append_setting(*options.app.get_option("--" + name), name, value, arguments);
   try {
-    options.app.parse(std::vector<std::string>{absl::StrCat("--", name, "=", value)});
+    parse(options, arguments);
   } catch (const CLI::ConversionError&) {
     return "expected true or false";  // numbers are checked before
   } catch (const CLI::ParseError& error) {
@@ -144,7 +166,7 @@ absl::Status check_kind(const CLI::Option& option, const ConfigLine& line) {
   using Kind = ConfigLine::Kind;
   Kind wanted = Kind::kWholeNumber;
   const char* expected = "a whole number, without quotes";
-  if (option.get_expected_max() == 0 || option.get_items_expected_min() == 0) {
+  if (is_flag(option)) {
     wanted = Kind::kTruth;
     expected = "true or false, without quotes";
   } else if (absl::StartsWith(option.get_type_name(), "TEXT")) {
@@ -167,7 +189,8 @@ absl::StatusOr<std::vector<std::string>> flags_of_file(const Options& options, c
       return absl::InvalidArgumentError(
           absl::StrCat(place, ": no such option", hint, hint.empty() ? "; " : " ", "isofieldd --help lists them all"));
     }
-    absl::Status status = check_kind(*options.app.get_option("--" + line.key), line);
+    const CLI::Option& option = *options.app.get_option("--" + line.key);
+    absl::Status status = check_kind(option, line);
     if (status.ok()) {
       const std::string fault = fault_of(line.key, line.value);
       if (!fault.empty()) status = absl::InvalidArgumentError(fault);
@@ -175,7 +198,7 @@ absl::StatusOr<std::vector<std::string>> flags_of_file(const Options& options, c
     if (!status.ok()) {
       return absl::InvalidArgumentError(absl::StrCat(place, " = ", line.written, ": ", status.message()));
     }
-    flags.push_back(absl::StrCat("--", line.key, "=", line.value));
+    append_setting(option, line.key, line.value, flags);
   }
   return flags;
 }
@@ -205,7 +228,7 @@ absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& opt
       return absl::InvalidArgumentError(
           absl::StrCat("the environment's ", settable.variable, " = ", value, ": ", fault));
     }
-    flags.push_back(absl::StrCat("--", settable.name, "=", value));
+    append_setting(*settable.option, settable.name, value, flags);
   }
   return flags;
 }
@@ -213,6 +236,8 @@ absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& opt
 // An error of the command line, with the option that was meant where one is unknown.
 std::string explain(const Options& options, const CLI::ParseError& error) {
   const std::vector<std::string> extras = options.app.remaining();
+  // Of flags alone: numbers are checked before, and texts need no conversion.
+  if (dynamic_cast<const CLI::ConversionError*>(&error)) return absl::StrCat(error.what(), "; expected true or false");
   if (extras.empty()) return error.what();
   const std::string wanted = extras.front().substr(0, extras.front().find('='));
   std::vector<std::string> names{"--config", "--help", "--version"};
@@ -229,10 +254,6 @@ ParsedConfig refuse(absl::string_view message) {
 
 ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   std::vector<std::string> flags(argv + std::min(argc, 1), argv + argc);
-  const auto parse = [](Options& options, std::vector<std::string> all) {
-    std::reverse(all.begin(), all.end());  // CLI11 takes them from the end
-    options.app.parse(all);
-  };
   // The command line by itself first: --help and --version come before everything, and it names the file.
   Options stated(version);
   try {

@@ -215,7 +215,7 @@ TEST(Lifecycle, FlagsAreRefusedWithWhatIsAccepted) {
   expect_wrong({"--max-shared-bytes", "0"}, {"--max-shared-bytes: expected a whole number within [1, "});
   expect_wrong({"--hot-points", "-5"}, {"--hot-points: expected a whole number within [0, "});
   expect_wrong({"--max-node", "5"}, {"--max-node: no such option; did you mean '--max-nodes'?"});
-  expect_wrong({"--validation=perhaps"}, {"--validation"});
+  expect_wrong({"--validation=perhaps"}, {"--validation = perhaps; expected true or false"});
 }
 
 TEST(Lifecycle, AConfigurationFileIsRefusedByLineAndKey) {
