@@ -84,14 +84,13 @@ absl::StatusOr<bool> FileWatch::take_events(bool blocks) {
 }
 
 absl::Status FileWatch::wait() {
-  absl::StatusOr<bool> changed = take_events(false);
-  if (changed.ok() && !*changed) {
-    if (auto status = follow(); !status.ok()) return status;
-  }
+  absl::StatusOr<bool> changed = false;
   while (changed.ok() && !*changed) changed = take_events(true);
   // What came with it belongs to the same change.
   for (absl::StatusOr<bool> more = changed; more.ok() && *more;) more = take_events(false);
-  return changed.status();
+  if (!changed.ok()) return changed.status();
+  // Before the caller reads the file, so that no change of what a link leads to is missed.
+  return follow();
 }
 
 }  // namespace isofield
