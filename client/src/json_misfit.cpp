@@ -37,13 +37,6 @@ std::vector<std::string> field_names(const Descriptor& type) {
   return names;
 }
 
-// protobuf takes enum values in lower case and with dashes, too.
-std::string enum_form(absl::string_view name) {
-  std::string form = absl::AsciiStrToUpper(name);
-  std::replace(form.begin(), form.end(), '-', '_');
-  return form;
-}
-
 std::vector<std::string> enum_names(const EnumDescriptor& type) {
   std::vector<std::string> names;
   for (int i = 0; i < type.value_count(); ++i) {
@@ -222,7 +215,7 @@ class Walker {
     if (!next_is('"')) return literal(text) && (absl::ascii_isalpha(text[0]) ? refuse(one_of(type)) : true);
     if (!string(text)) return false;
     int number = 0;
-    if (type.FindValueByName(enum_form(text)) != nullptr || absl::SimpleAtoi(text, &number)) return true;
+    if (type.FindValueByName(text) != nullptr || absl::SimpleAtoi(text, &number)) return true;
     return refuse(one_of(type) + did_you_mean(text, enum_names(type)));
   }
   static std::string one_of(const EnumDescriptor& type) {

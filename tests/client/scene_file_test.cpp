@@ -50,6 +50,7 @@ TEST(SceneFile, ErrorsNameTheNearestFieldAndItsPlace) {
        {"nodes[0] 'g'.gradient.opening", "did you mean \"preset\""}},
       {R"({"nodes": [{"gradient": {"opening": {"preset": "CAMLE"}}}]})",
        {"nodes[0].gradient.opening.preset = \"CAMLE\"", "one of CAMEL, ORGANIC, CONTACT", "did you mean \"CAMEL\""}},
+      {R"({"nodes": [{"sphere": {"law": "signed"}}]})", {"law = \"signed\"", "did you mean \"SIGNED\"?"}},
       {R"({"nodes": [{"name": "s", "sphere": {"radius": 1, "radius": 2}}]})", {"'s'.sphere.radius stands there twice"}},
       {R"({"nodes": [{"segment": {"radiusA": 1, "radius_a": 2}}]})", {"segment.radius_a stands there twice"}},
       {R"({"nodes": [{"sphere": {}, "box": {}}]})", {"nodes[0] has both sphere and box"}},
@@ -73,7 +74,7 @@ TEST(SceneFile, ErrorsNameTheNearestFieldAndItsPlace) {
 
 TEST(SceneFile, TakesWhatProtobufTakes) {
   for (const char* text :
-       {R"({"nodes": [{"sphere": {"radius": "1.5", "range": 1e0, "law": "positive", "center": null}}]})",
+       {R"({"nodes": [{"sphere": {"radius": "1.5", "range": 1e0, "law": "POSITIVE", "center": null}}]})",
         R"({"nodes": [{"segment": {"radius_a": 1, "radiusB": 2}}], "root": null, "unit": "\u00b5m \"x\""})",
         R"({"nodes": [{"sphere": {"law": 1}, "box": null}]})", "{}", " {\n} "}) {
     EXPECT_TRUE(parse_scene_json(text, "x.json").ok()) << parse_scene_json(text, "x.json").status();
