@@ -1,3 +1,4 @@
+#include <absl/container/flat_hash_map.h>
 #include <absl/strings/ascii.h>
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
@@ -49,18 +50,12 @@ class AtomTable {
 
   // Models by their place: those with distinct names, in the order of their first atoms.
   int count_models() {
-    std::vector<absl::string_view> names;
+    absl::flat_hash_map<absl::string_view, int> models;
     for (const auto row : table_) {
-      const absl::string_view name = value(row, kModel);
-      if (!model_of_row_.empty() && names[static_cast<std::size_t>(model_of_row_.back()) - 1] == name) {
-        model_of_row_.push_back(model_of_row_.back());
-        continue;
-      }
-      const auto known = std::find(names.begin(), names.end(), name);
-      model_of_row_.push_back(1 + static_cast<int>(known - names.begin()));
-      if (known == names.end()) names.push_back(name);
+      const int next = static_cast<int>(models.size()) + 1;
+      model_of_row_.push_back(models.try_emplace(value(row, kModel), next).first->second);
     }
-    return static_cast<int>(names.size());
+    return static_cast<int>(models.size());
   }
 
   std::vector<MoleculeAtom> atoms(int model) {

@@ -103,10 +103,12 @@ absl::StatusOr<std::vector<std::vector<std::string>>> expand_operators(absl::str
 std::vector<Assembly> read_assemblies(gemmi::cif::Block& block) {
   const Motions motions = read_motions(block);
   std::vector<Assembly> assemblies;
+  absl::flat_hash_map<std::string, std::size_t> index;
   for (const auto row : block.find("_pdbx_struct_assembly_gen.", {"assembly_id", "oper_expression", "asym_id_list"})) {
     const std::string name = row.str(0);
-    if (assemblies.empty() || assemblies.back().name != name) assemblies.emplace_back().name = name;
-    Assembly::Part& part = assemblies.back().parts.emplace_back();
+    const auto [known, is_new] = index.try_emplace(name, assemblies.size());
+    if (is_new) assemblies.emplace_back().name = name;
+    Assembly::Part& part = assemblies[known->second].parts.emplace_back();
     for (const absl::string_view chain : absl::StrSplit(row.str(2), ',')) {
       part.chains.emplace_back(absl::StripAsciiWhitespace(chain));
     }

@@ -71,19 +71,27 @@ class AtomAdder {
   absl::flat_hash_set<std::string> names_;
 };
 
-absl::Status add_assembly(const Assembly& assembly, const std::vector<const MoleculeAtom*>& atoms, AtomAdder& adder,
-                          ImportReport& report) {
-  absl::flat_hash_set<const MoleculeAtom*> used;
+using Atoms = std::vector<const MoleculeAtom*>;
+using AtomsByChain = absl::flat_hash_map<absl::string_view, Atoms>;
+
+// Those chains of a part that have atoms, each once.
+std::vector<absl::string_view> present_chains(const Assembly::Part& part, const AtomsByChain& atoms) {
+  std::vector<absl::string_view> chains;
+  absl::flat_hash_set<absl::string_view> seen;
+  for (const absl::string_view chain : part.chains) {
+    if (atoms.contains(chain) && seen.insert(chain).second) chains.push_back(chain);
+  }
+  return chains;
+}
+
+absl::Status add_assembly(const Assembly& assembly, const Atoms& atoms, AtomAdder& adder, ImportReport& report) {
+  AtomsByChain by_chain;
+  for (const MoleculeAtom* atom : atoms) by_chain[atom->assembly_chain].push_back(atom);
   absl::flat_hash_map<absl::string_view, int> copies;
   std::size_t added = 0;
   for (const Assembly::Part& part : assembly.parts) {
-    const absl::flat_hash_set<absl::string_view> chains(part.chains.begin(), part.chains.end());
-    std::vector<const MoleculeAtom*> members;
-    for (const MoleculeAtom* atom : atoms) {
-      if (chains.contains(atom->assembly_chain)) members.push_back(atom);
-    }
-    used.insert(members.begin(), members.end());
-    added += members.size() * part.motions.size();
+    const auto chains = present_chains(part, by_chain);
+    for (const absl::string_view chain : chains) added += by_chain[chain].size() * part.motions.size();
     if (added > kMostAtoms) {
       return absl::InvalidArgumentError(
           absl::StrCat("assembly ", assembly.name, " has ", added, " atoms; expected ", kMostAtoms, " at most"));
@@ -93,14 +101,14 @@ absl::Status add_assembly(const Assembly& assembly, const std::vector<const Mole
         return absl::InvalidArgumentError(
             absl::StrCat("an operator of assembly ", assembly.name, " is not a rotation with a shift"));
       }
-      for (const absl::string_view chain : chains) ++copies[chain];
-      for (const MoleculeAtom* atom : members) {
-        adder.add(*atom, moved(motion, atom->center), copies[atom->assembly_chain]);
+      for (const absl::string_view chain : chains) {
+        const int copy = ++copies[chain];
+        for (const MoleculeAtom* atom : by_chain[chain]) adder.add(*atom, moved(motion, atom->center), copy);
       }
     }
   }
   for (const MoleculeAtom* atom : atoms) {
-    if (!used.contains(atom)) {
+    if (!copies.contains(atom->assembly_chain)) {
       note(report, "atom left out: not in the assembly", atom->source.line_number, atom->source.line, false);
     }
   }

@@ -6,6 +6,7 @@
 #include <absl/strings/str_join.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "importers/atom_element.h"
 #include "importers/import_report.h"
@@ -60,53 +61,49 @@ class AltlocChoice {
     for (const MoleculeAtom& atom : molecule.atoms) {
       if (!atom.altloc.empty()) count(atom);
     }
-    for (auto& [place, residue] : residues_) residue.choose(options.altloc);
+    // In the file's order, so that of equal occupancies the first is taken.
+    for (const Location& location : locations_) {
+      const Location*& chosen = chosen_[location.residue];
+      if (!chosen || (chosen->name != options.altloc &&
+                      (location.name == options.altloc || location.mean() > chosen->mean() + kTie))) {
+        chosen = &location;
+      }
+    }
   }
 
   bool takes(const MoleculeAtom& atom) const {
-    return atom.altloc.empty() || residues_.at({atom.chain, atom.number}).chosen == atom.altloc;
+    return atom.altloc.empty() || chosen_.at({atom.chain, atom.number})->name == atom.altloc;
   }
   // The residue lacks the location that was asked for, so that another one stands in.
-  bool stands_in(const MoleculeAtom& atom, const ImportOptions& options) const {
+  static bool stands_in(const MoleculeAtom& atom, const ImportOptions& options) {
     return !atom.altloc.empty() && !options.altloc.empty() && atom.altloc != options.altloc;
   }
 
  private:
+  // Sums of equal occupancies differ by rounding.
+  static constexpr double kTie = 1e-6;
+  // Chain and number.
+  using Residue = std::pair<absl::string_view, absl::string_view>;
   struct Location {
+    Residue residue;
     absl::string_view name;
     double occupancy = 0;
     int atoms = 0;
-  };
-  struct Residue {
-    std::vector<Location> locations;
-    absl::string_view chosen;
-
-    void choose(absl::string_view wanted) {
-      // Sums of equal occupancies differ by rounding.
-      constexpr double kTie = 1e-6;
-      const Location* best = nullptr;
-      for (Location& location : locations) {
-        location.occupancy /= location.atoms;
-        if (location.name == wanted) {
-          best = &location;
-          break;
-        }
-        if (!best || location.occupancy > best->occupancy + kTie) best = &location;
-      }
-      chosen = best->name;
-    }
+    double mean() const { return occupancy / atoms; }
   };
 
   void count(const MoleculeAtom& atom) {
-    std::vector<Location>& locations = residues_[{atom.chain, atom.number}].locations;
-    auto location = std::find_if(locations.begin(), locations.end(),
-                                 [&](const Location& known) { return known.name == atom.altloc; });
-    if (location == locations.end()) location = locations.insert(location, Location{atom.altloc, 0, 0});
-    location->occupancy += atom.occupancy;
-    ++location->atoms;
+    const Residue residue{atom.chain, atom.number};
+    const auto [index, is_new] = index_.try_emplace(std::pair(residue, atom.altloc), locations_.size());
+    if (is_new) locations_.push_back({residue, atom.altloc});
+    Location& location = locations_[index->second];
+    location.occupancy += atom.occupancy;
+    ++location.atoms;
   }
 
-  absl::flat_hash_map<std::pair<absl::string_view, absl::string_view>, Residue> residues_;
+  std::vector<Location> locations_;
+  absl::flat_hash_map<std::pair<Residue, absl::string_view>, std::size_t> index_;
+  absl::flat_hash_map<Residue, const Location*> chosen_;
 };
 
 }  // namespace
