@@ -90,7 +90,8 @@ TEST_F(CliTest, RaysThatAreFedBackMeanTheirHits) {
   expect_hits(out_);
   ASSERT_EQ(run("--json eval " + ball + " --points " + path("hits.npy") + " -o " + path("v.csv")), 0) << err_;
   EXPECT_EQ(err_, "");
-  EXPECT_TRUE(absl::StrContains(out_, "\"points\":3") && absl::StrContains(out_, "hits.npy: 1 row is left out")) << out_;
+  EXPECT_TRUE(absl::StrContains(out_, "\"points\":3") && absl::StrContains(out_, "hits.npy: 1 row is left out"))
+      << out_;
   expect_hits(*read_file(path("v.csv")));
   // Values have no places; points of other columns would be an accident.
   EXPECT_EQ(run("eval " + ball + " --points -", "u,v,value\n0,0,0.5\n"), 4);

@@ -23,6 +23,7 @@ class RowNumbers {
   absl::Status parse(absl::string_view row, double* numbers) const;
 
  private:
+  bool parse_plain(const char*& at, const char* end, double* numbers) const;
   const char* scan_cell(const char* begin, const char* end, double& value) const;
   absl::Status check_count(const char* at, const char* end, std::size_t column) const;
   absl::Status refuse(absl::string_view row, std::size_t column) const;
@@ -32,6 +33,8 @@ class RowNumbers {
   const std::size_t wanted_;
   // The number that each column holds, or kIgnored; up to the last one that is wanted.
   std::vector<int> number_of_;
+  // The numbers are the first columns, in their order.
+  bool is_plain_ = true;
 };
 
 }  // namespace isofield
