@@ -7,6 +7,8 @@
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -39,9 +41,9 @@ std::string describe(const v1::Scene& scene, const v1::Node& node) {
   if (node.has_transform()) {
     const Numbers& matrix = node.transform().matrix();
     const int child = std::stoi(node.transform().child().substr(1));
-    Numbers place;
-    for (const int i : {3, 7, 11}) place.Add(matrix[i]);
-    return absl::StrCat(text, " at (", words(place), ")", describe(scene, scene.nodes(child)));
+    const std::array<double, 3> place = {matrix[3], matrix[7], matrix[11]};
+    return absl::StrCat(text, " at (", words(Numbers(place.begin(), place.end())), ")",
+                        describe(scene, scene.nodes(child)));
   }
   if (node.has_sphere()) {
     return absl::StrCat(text, " sphere (", words(node.sphere().center()), ") ", words(node.sphere().radius()));

@@ -1,6 +1,6 @@
-"""Compares what `isofield import` reads of neurons with what two other readers do: morphio counts the trees, the sections
-and their edges, navis the trees and the nodes. Every difference is explained in a table below; one that is not, or an
-explanation that no longer holds, fails.
+"""Compares what `isofield import` reads of neurons with what two other readers do: morphio counts the neurites, their
+sections and the edges of these, navis the trees and the nodes. Every difference is explained in a table below; one
+that is not, or an explanation that does not hold, fails.
 
 Usage: swc_readers_test.py ISOFIELD SHARED READERS
 SHARED ($ISOFIELD_SHARED in its place, if that is set) is the folder with the files. READERS is a folder for a virtual
@@ -68,8 +68,8 @@ NAVIS_REFUSES = {
 
 # By file: morphio's edges less isofield's, and why.
 MORPHIO_DIFFERENCES = {
-    "Neuron-monotonic.swc": (-80, "the file repeats each of the 80 points where a section begins; morphio leaves the edges "
-                             "of length 0 out, isofield reports them"),
+    "Neuron-monotonic.swc": (-80, "the file repeats each of the 80 points where a section begins; morphio leaves out "
+                             "the edges of length 0, isofield reports them"),
 }
 
 

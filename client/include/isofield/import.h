@@ -98,27 +98,29 @@ std::optional<ImportFormat> import_format(const std::string& path);
 // "camel", "organic", "contact", "sum", "max" or "ricci".
 std::optional<ImportOperator> import_operator(const std::string& name);
 
-// SWC: an edge is a segment (round cone) from a sample to its parent with both radii; a tree without an edge is a sphere.
-//  - Columns "id type x y z radius parent", between blanks, tabs, commas or semicolons; further columns and comments (#)
-//    are ignored. Ids are whole numbers of 64 bits. A negative parent, or the sample itself, makes a root. Types are kept
-//    as they are; 1 is a soma.
+// SWC: an edge is a segment (round cone) from a sample to its parent with both radii; a tree without an edge is a
+// sphere.
+//  - Columns "id type x y z radius parent", between blanks, tabs, commas or semicolons; further columns and comments
+//    (#) are ignored. Ids are whole numbers of 64 bits. A negative parent, or the sample itself, makes a root. Types
+//    are kept as they are; 1 is a soma.
 //  - A soma is all samples of type 1 that are linked. One sample, or three as NeuroMorpho writes them (the second and
 //    third opposite each other at the radius of the first, their parent), is a sphere; two are a capsule; others have a
 //    segment for each edge. Thin samples on a closed loop or the ends of a star, in one plane, are a contour: an
-//    ellipsoid, whose third axis is the mean of the two. Contours at several depths, also of trees of their own, are the
-//    hull of balls that touch them. An edge between a soma and another type begins at the soma's surface and has the
-//    other's radius there; what lies within the soma is left out, unless it is thicker than the soma.
-//  - "# SCALE x y z" is reported. With ImportOptions::apply_scale coordinates are multiplied by it, axis by axis, and radii
-//    by the geometric mean of the three, so that three equal factors are a change of unit. (Cannon's cvapp, where the
-//    header comes from, notes in it what coordinates were multiplied by already, and leaves radii alone.)
-//  - Samples without a usable id, or with a coordinate that is not within 2.5e8, are dropped; their children, and those of
-//    samples that do not exist, become roots. Of doubled ids the first is used. A cycle is cut at its first sample in the
-//    file. A sample without a radius within [1e-9, 2.5e8] gets ImportOptions::min_radius, or its parent's; a root gets
-//    that of its nearest descendant that has one. Edges of length 0 are dropped where another piece covers them.
+//    ellipsoid, whose third axis is the mean of the two. Contours at several depths, also of trees of their own, are
+//    the hull of balls that touch them. An edge between a soma and another type begins at the soma's surface and has
+//    the other's radius there; what lies within the soma is left out, unless it is thicker than the soma.
+//  - "# SCALE x y z" is reported. With ImportOptions::apply_scale coordinates are multiplied by it, axis by axis, and
+//    radii by the geometric mean of the three, so that three equal factors are a change of unit. (Cannon's cvapp, where
+//    the header comes from, notes in it what coordinates were multiplied by already, and leaves radii alone.)
+//  - Samples without a usable id, or with a coordinate that is not within 2.5e8, are dropped; their children, and those
+//    of samples that do not exist, become roots. Of doubled ids the first is used. A cycle is cut at its first sample
+//    in the file. A sample without a radius within [1e-9, 2.5e8] gets ImportOptions::min_radius, or its parent's; a
+//    root gets that of its nearest descendant that has one. Edges of length 0 are dropped where another piece covers
+//    them.
 //  - The report has a remark where the largest radius is implausible in micrometres and no unit is stated.
-//  - Pieces come parents first; a file that is in that order keeps it. Named "n<id>" after the sample at the far end; an
-//    edge that leads to a soma from its parent, "n<id>/edge" where the soma has that name. A piece may be a Transform of a
-//    node without a name.
+//  - Pieces come parents first; a file that is in that order keeps it. Named "n<id>" after the sample at the far end;
+//    an edge that leads to a soma from its parent, "n<id>/edge" where the soma has that name. A piece may be a
+//    Transform of a node without a name.
 //  - INVALID_ARGUMENT: also a root without a radius for it; the message names the line.
 // PDB and mmCIF (mmJSON too): a sphere of van der Waals radius for each atom of one model, in angstrom. Named
 // "CHAIN/RESIDUE/ATOM" where that is unique; in copies of a chain that an assembly makes, "CHAIN-2/RESIDUE/ATOM".

@@ -34,7 +34,9 @@ double mean_distance(const std::vector<Vector3>& points, const Vector3& center) 
 // The normal of the plane through the centre, the point furthest from it and the one that spans the widest triangle
 // with both; nothing where all lie on a line.
 std::optional<Vector3> plane_normal(const std::vector<Vector3>& points, const Vector3& center) {
-  const auto by_distance = [&](const Vector3& a, const Vector3& b) { return distance(a, center) < distance(b, center); };
+  const auto by_distance = [&](const Vector3& a, const Vector3& b) {
+    return distance(a, center) < distance(b, center);
+  };
   const Vector3 arm = subtract(*std::max_element(points.begin(), points.end(), by_distance), center);
   Vector3 normal{};
   for (const Vector3& point : points) {

@@ -51,8 +51,8 @@ class PieceMaker {
   bool in_soma(int i) const { return somata_.soma_of[i] != kNoSoma; }
   const Soma& soma_of(int i) const { return somata_.all[somata_.soma_of[i]]; }
 
-  // Counts the edges of each tree that have a length, and finds its widest sample. A soma counts as an edge, unless it is
-  // a stack of frusta, which has its own.
+  // Counts the edges of each tree that have a length, and finds its widest sample. A soma counts as an edge, unless it
+  // is a stack of frusta, which has its own.
   void survey(int i) {
     const int parent = samples_[i].parent;
     tree_[i] = parent == kNoParent ? i : tree_[parent];

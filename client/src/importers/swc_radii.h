@@ -13,9 +13,9 @@ namespace isofield {
 // parent's own mending; a root gets that of its nearest descendant that has one, of several as near the first in the
 // file. A sample that is thinner than ImportOptions::min_radius gets that.
 //
-// A tree that has lost its parent and has no radius at all is dropped. `outlines`: the samples, by index, that only lie on
-// the outline of a soma; they need no radius and keep what they have. `order`: parents first; dropped samples are taken
-// out. INVALID_ARGUMENT: a root without a radius for it; the message names its line.
+// A tree that has lost its parent and has no radius at all is dropped. `outlines`: the samples, by index, that only lie
+// on the outline of a soma; they need no radius and keep what they have. `order`: parents first; dropped samples are
+// taken out. INVALID_ARGUMENT: a root without a radius for it; the message names its line.
 absl::Status mend_radii(const std::vector<bool>& outlines, const ImportOptions& options, std::vector<int>& order,
                         std::vector<SwcSample>& samples, ImportReport& report);
 

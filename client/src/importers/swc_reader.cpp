@@ -41,7 +41,9 @@ std::string piece_id(SwcId id) {
 class SampleReader {
  public:
   SampleReader(const Vector3& scale, ImportReport& report)
-      : scale_(scale), radius_scale_(std::cbrt(scale[0]) * std::cbrt(scale[1]) * std::cbrt(scale[2])), report_(report) {}
+      : scale_(scale),
+        radius_scale_(std::cbrt(scale[0]) * std::cbrt(scale[1]) * std::cbrt(scale[2])),
+        report_(report) {}
 
   void read(absl::string_view line, std::size_t number) {
     const absl::string_view data = without_comment(line);

@@ -59,8 +59,8 @@ Vector3 read_swc_scale(const std::string& text, bool apply, ImportReport& report
     const auto factors = parse_factors(*fields);
     if (!factors) {
       malformed = true;
-      note(report, "line SCALE of the header ignored: expected \"# SCALE x y z\" with three numbers > 0", lines.number(),
-           line);
+      note(report, "line SCALE of the header ignored: expected \"# SCALE x y z\" with three numbers > 0",
+           lines.number(), line);
     } else if (stated) {
       note(report, "further line SCALE of the header ignored: the first one counts", lines.number(), line,
            *factors != *stated);

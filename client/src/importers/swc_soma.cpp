@@ -185,9 +185,10 @@ class SomaFinder {
         }
         return;
       case SomaForm::kContours:
-        return remark(soma.contours.size() == 1
-                          ? "soma outlined by a contour: made an ellipsoid, whose third axis is the mean of the two"
-                          : "soma outlined by contours at several depths: made the blended hull of balls that touch them");
+        return remark(
+            soma.contours.size() == 1
+                ? "soma outlined by a contour: made an ellipsoid, whose third axis is the mean of the two"
+                : "soma outlined by contours at several depths: made the blended hull of balls that touch them");
       case SomaForm::kFrusta:
         break;
     }

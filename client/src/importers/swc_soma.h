@@ -43,9 +43,9 @@ struct Somata {
 // Finds the somata of linked samples and decides, by geometry, what each one is; the report says what was decided.
 // `order`: parents first. Gives the centre of a soma of three samples the radius of its sphere.
 //
-// Contours have samples that are thin, next to the extent of the soma, and lie in one plane or several parallel ones, on a
-// closed loop or at the ends of a star. Three samples are a sphere where the second and third are opposite each other at
-// the radius of the first, which is their parent. A soma that is neither has a segment for each edge.
+// Contours have samples that are thin, next to the extent of the soma, and lie in one plane or several parallel ones,
+// on a closed loop or at the ends of a star. Three samples are a sphere where the second and third are opposite each
+// other at the radius of the first, which is their parent. A soma that is neither has a segment for each edge.
 Somata find_somata(const std::vector<int>& order, std::vector<SwcSample>& samples, ImportReport& report);
 
 }  // namespace isofield
