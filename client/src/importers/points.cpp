@@ -1,4 +1,5 @@
 #include <absl/strings/ascii.h>
+#include <absl/strings/match.h>
 #include <absl/strings/numbers.h>
 #include <absl/strings/str_cat.h>
 
@@ -23,6 +24,7 @@ constexpr double kSoftRadius = 0.5;
 const double kSurface = std::sqrt(1 - std::cbrt(0.5));
 // Larger numbers have squares that float32 cannot hold.
 constexpr double kLargest = 1e15;
+constexpr char kDropped[] = "line dropped: expected \"x y z\" with finite numbers of a usable size";
 
 // The column of R; nothing: there is none. INVALID_ARGUMENT: the one that is asked for is not there.
 absl::StatusOr<std::optional<std::size_t>> radius_column(const TableHead& head, const std::string& asked) {
@@ -103,7 +105,9 @@ class PointImport {
     ++report.read;
     std::array<double, 5> numbers{};
     if (const auto status = numbers_->parse(line, numbers.data()); !status.ok()) {
-      note(report, absl::StrCat("line dropped: ", status.message()), number, line);
+      // With a header the message names the column, and a second clause speaks of decimal commas.
+      const bool is_plain = head_.names().empty() && !absl::StrContains(status.message(), ';');
+      note(report, is_plain ? kDropped : absl::StrCat("line dropped: ", status.message()), number, line);
       return;
     }
     if (distance_place_ != 0 && !std::isfinite(numbers[distance_place_])) {
@@ -112,7 +116,7 @@ class PointImport {
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (std::abs(numbers[axis]) <= kLargest) continue;
-      note(report, "line dropped: expected \"x y z\" with finite numbers of a usable size", number, line);
+      note(report, kDropped, number, line);
       return;
     }
     double soft_radius = options_.radius.value_or(kSoftRadius);
