@@ -63,7 +63,8 @@ class Options {
         "Points evaluated of small scenes of one structure before a kernel is compiled for it; 0: never")
         ->check(whole(0, std::uint64_t{1} << 62));
     add_flag("--compile-ahead", c.compile_ahead,
-             "While a named scene is edited, compile in the background the kernels that it is likely to need next");
+             "While a named scene is edited, compile in the background the kernels that it is likely to need next; on, "
+             "unless --compile-ahead=false is stated");
     add("--max-kernels", c.max_kernels,
         "Compiled kernels kept, some 0.25 MB each on lavapipe; beyond these the least recently used are freed")
         ->check(whole(64, 65536));

@@ -34,6 +34,12 @@ Head head_of(std::string_view text, std::string_view spirv) {
       .text_bytes = text.size(), .spirv_bytes = spirv.size(), .hash = shaders::hash_of(spirv, shaders::hash_of(text))};
 }
 
+// Notes that a file has been used. A folder that cannot be written to serves all the same.
+void touch(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), ignored);
+}
+
 }  // namespace
 
 SpirvStore::SpirvStore(std::filesystem::path folder, std::uintmax_t most_bytes)
@@ -54,7 +60,8 @@ void SpirvStore::prune() const {
   for (auto it = std::filesystem::directory_iterator(folder_, error); !error && it != std::filesystem::end(it);
        it.increment(error)) {
     std::error_code gone;
-    if (it->path().extension() != kExtension) continue;
+    // What a process that was killed left half written goes, too.
+    if (it->path().filename().string().find(kExtension) == std::string::npos) continue;
     Kept file{it->last_write_time(gone), 0, it->path()};
     if (!gone) file.bytes = it->file_size(gone);
     if (gone) continue;
@@ -83,8 +90,7 @@ std::optional<std::vector<std::uint32_t>> SpirvStore::load(std::string_view text
   const Head expected = head_of(text, spirv);
   if (std::memcmp(content.data(), &expected, sizeof(expected)) != 0) return std::nullopt;
   if (std::string_view(content).substr(sizeof(Head), text.size()) != text) return std::nullopt;
-  std::error_code error;  // a folder that cannot be written to is read all the same
-  std::filesystem::last_write_time(path_of(text), std::filesystem::file_time_type::clock::now(), error);
+  touch(path_of(text));
   std::vector<std::uint32_t> words(spirv.size() / sizeof(std::uint32_t));
   std::memcpy(words.data(), spirv.data(), spirv.size());
   return words;
@@ -97,7 +103,8 @@ void SpirvStore::save(std::string_view text, const std::vector<std::uint32_t>& s
   const std::filesystem::path path = path_of(text);
   // Whole, or not there at all.
   std::filesystem::path partial = path;
-  partial += absl::StrCat(".", getpid());
+  static std::atomic<std::uint64_t> saves = 0;
+  partial += absl::StrCat(".", getpid(), ".", ++saves);
   const Head head = head_of(text, bytes_of(spirv));
   bool is_written = false;
   {
@@ -108,7 +115,11 @@ void SpirvStore::save(std::string_view text, const std::vector<std::uint32_t>& s
     is_written = !file.fail();
   }
   if (is_written) std::filesystem::rename(partial, path, error);
-  if (!is_written || error) std::filesystem::remove(partial, error);
+  if (!is_written || error) {
+    std::filesystem::remove(partial, error);
+    return;
+  }
+  touch(path);
   if ((saved_bytes_ += sizeof(head) + text.size() + 4 * spirv.size()) < most_bytes_ / 16) return;
   saved_bytes_ = 0;
   prune();

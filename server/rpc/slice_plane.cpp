@@ -99,8 +99,8 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
     spacing.fill(std::max(extents[0], extents[1]) / (kDefaultCount - 1));
   }
   if (request.counts().empty()) {
-    // A sample more than steps; rounding must not add another.
-    for (int i = 0; i < 2; ++i) counts[i] = std::ceil(extents[i] / spacing[i] * (1 - 1e-6)) + 1;
+    // A sample more than steps. Supports are rounded outwards by some 1e-5 of themselves, which must not add another.
+    for (int i = 0; i < 2; ++i) counts[i] = std::ceil(extents[i] / spacing[i] * (1 - 1e-4)) + 1;
   }
   if (!(counts[0] * counts[1] <= static_cast<double>(max_points))) {
     return absl::ResourceExhaustedError(absl::StrCat("counts = [", counts[0], ", ", counts[1], "]: at most ",

@@ -10,6 +10,7 @@
 #include "engine/compile_ahead.h"
 #include "engine/specialised_kernels.h"
 #include "engine/spirv_store.h"
+#include "engine/tape_windows.h"
 #include "gpu/commands.h"
 #include "gpu/gpu_environment.h"
 #include "shaders/specialise.h"
@@ -129,7 +130,8 @@ TEST(CompileAhead, MakesTheKernelsOfTheNextEdit) {
   EXPECT_GT(made, 0u);
   const KernelKind boxed = kind_of(kSpheres + R"({"name": "c", "box": {"half_size": [1, 1, 1], "range": 0.5}},
     {"gradient": {"children": ["a", "b", "c"], "opening": {"preset": "CAMEL"}}})");
-  ASSERT_TRUE(specialised->get(shaders::kMeshSample, boxed.constants()).ok());
+  const KernelKind windowed = engine::TapeWindows::windowed(device(), boxed);
+  ASSERT_TRUE(specialised->get(shaders::kMeshSample, windowed.constants()).ok());
   EXPECT_EQ(specialised->made(), made);
 }
 

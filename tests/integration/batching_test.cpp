@@ -18,6 +18,7 @@ v1::EvaluateRequest request_of(const v1::SceneRef& scene, std::span<const float>
   v1::EvaluateRequest request;
   *request.mutable_scene() = scene;
   request.set_quantity(v1::VALUE_AND_GRADIENT);
+  request.set_max_answer_bytes(64u << 20);
   *request.mutable_points() = points_tensor(xyz);
   return request;
 }

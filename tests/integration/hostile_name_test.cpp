@@ -12,7 +12,7 @@ namespace {
 using grpc::StatusCode;
 
 const std::string kLong(1 << 20, 'n');
-const std::string kCut = "'" + std::string(80, 'n') + "...'";
+const std::string kCut = absl::StrCat("'", std::string(80, 'n'), "...'");
 const std::string kLines = "one\ntwo\x1b[31m\r";
 const std::string kEscaped = "'one\\ntwo\\x1b[31m\\r'";
 
@@ -110,7 +110,7 @@ TEST_F(HostileName, OfANodeIsCutWhereItIsTooLong) {
   expect_refused(peer.put("named", scene), StatusCode::INVALID_ARGUMENT, {"nodes[0]", "at most 256 characters"});
   scene = Ball().scene();
   scene.set_unit(kLong);
-  expect_shown(peer.put("named", scene), StatusCode::INVALID_ARGUMENT, "unit = " + kCut);
+  expect_shown(peer.put("named", scene), StatusCode::INVALID_ARGUMENT, absl::StrCat("unit = ", kCut));
 }
 
 TEST_F(HostileName, OfColumnsAreFew) {

@@ -161,7 +161,7 @@ TEST(Lifecycle, HelpListsEveryOptionWithItsDefault) {
                   {"--log-level", "info"},
                   {"--drain-seconds", "10"},
                   {"--max-threads", "256"},
-                  {"--compile-ahead", "true"},
+                  {"--compile-ahead", ""},
                   {"--max-kernels", "512"},
                   {"--max-nodes", "1000000"},
                   {"--max-primitives", "1000000"},

@@ -177,12 +177,12 @@ TEST(OperatorReader, MixedLawsAreRefusedWithThePathOfTheNode) {
   refused(balls + R"({"harden": {"child": "s"}}])", {"nodes[2].child", "expected a POSITIVE one"});
   refused(balls + R"({"soften": {"child": "s", "range": 0}}])", {"nodes[2].range is missing or 0"});
   refused(R"([{"sphere": {"radius": 1, "range": 1, "law": "SIGNED"}}])", {"range = 1", "SIGNED field has no range"});
-  refused(balls + R"({"bt2": {"children": ["s"], "r1": 1, "r2": 1}}])", {"[1 children]", "exactly 2"});
-  refused(balls + R"({"btk": {"children": ["s"], "ranges": [1]}}])", {"[1 children]", "2 to 16"});
+  refused(balls + R"({"bt2": {"children": ["s"], "r1": 1, "r2": 1}}])", {"[1 child]", "exactly 2"});
+  refused(balls + R"({"btk": {"children": ["s"], "ranges": [1]}}])", {"[1 child]", "2 to 16"});
   refused(balls + R"({"btk": {"children": ["s", "s"], "ranges": [1, 1, 1]}}])", {"[2 children]", "exactly 3"});
   refused(balls + R"({"custom": {"children": ["p", "p"], "operator": "mine"}}])",
           {"operator = 'mine'", "custom operator"});
-  refused(balls + R"({"clean": {"children": ["p"], "form": "DIFFERENCE"}}])", {"[1 children]", "at least 2"});
+  refused(balls + R"({"clean": {"children": ["p"], "form": "DIFFERENCE"}}])", {"[1 child]", "at least 2"});
   // A transform has the law of its child, so a scene of signed nodes throughout is fine.
   EXPECT_TRUE(read_scene(scene_of_nodes(balls + R"({"name": "t", "transform": {"child": "s", "scale": [2]}},
       {"name": "d", "difference": {"children": ["t", "s"]}}, {"soften": {"child": "d", "range": 1}}])"))

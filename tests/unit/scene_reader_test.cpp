@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RefusedTest, testing::ValuesIn(kRefusals),
                          [](const auto& info) { return std::string(info.param.what); });
 
 TEST(SceneReader, EmptyScenesAreRefused) {
-  expect_refused({}, {"nodes", "[]", "at least 1 node"});
+  expect_refused({}, {"nodes is missing", "at least 1 node"});
 }
 
 TEST(SceneReader, UnknownRootsAreRefused) {

@@ -97,6 +97,15 @@ std::optional<FileKind> kind_by_count(absl::string_view text) {
   const bool has_third = lines.next(third);
   // A line with the edges of a periodic box may come first.
   if (is_tinker(second) || (has_third && is_tinker(third))) return FileKind::kXyz;
+  // Words may follow the count, and a blank line, where an atom follows the comment.
+  const auto is_atom = [&](absl::string_view text_line) {
+    const auto atom = split_fields(text_line);
+    return !atom.empty() && names_element(atom[0]) && are_numbers(atom, 1, 3);
+  };
+  if (fields.size() == 1 || !is_number(fields[1])) {
+    absl::string_view fourth;
+    if (is_atom(third) || (second.empty() && lines.next(fourth) && is_atom(fourth))) return FileKind::kXyz;
+  }
   if (fields.size() > 1) return std::nullopt;
   if (!has_third) return FileKind::kXyz;
   const auto element = split_fields(third);
@@ -161,6 +170,12 @@ std::optional<FileKind> kind_by_text(absl::string_view text) {
   return std::nullopt;
 }
 
+// mmCIF in JSON: an object of data blocks, "data_NAME".
+bool is_mmjson(absl::string_view json) {
+  json.remove_prefix(std::min(json.find('{') + 1, json.size()));
+  return absl::StartsWith(absl::StripLeadingAsciiWhitespace(json), "\"data_");
+}
+
 FileKind kind_of(ImportFormat format) {
   switch (format) {
     case ImportFormat::kSwc:
@@ -182,7 +197,7 @@ FileKind kind_of(ImportFormat format) {
 absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::string& path) {
   // What was packed is named after what it holds.
   const std::string name(absl::StripSuffix(path, ".gz"));
-  if (is_json(content)) return FileKind::kSceneJson;
+  if (is_json(content)) return is_mmjson(content) ? FileKind::kMmcif : FileKind::kSceneJson;
   const bool is_named_message = absl::EndsWithIgnoreCase(name, ".pb");
   const absl::string_view start = absl::string_view(content).substr(0, kLookedAt);
   if (content.empty() && !is_named_message) return refuse(path, "the file is empty");
