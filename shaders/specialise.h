@@ -11,12 +11,12 @@
 
 namespace isofield::shaders {
 
-// The kernel with specialisation constants 0, 1, 2, ... fixed to `constants`, others to their defaults, and without the
-// branches and functions that are dead then. The driver would come to the same, but it takes several times as long to
-// read the whole kernel as this does. INTERNAL: SPIRV-Tools fails.
+// Fixes the kernel's specialisation constants 0, 1, 2, ... to `constants` and others to their defaults, and removes the
+// branches and functions that are dead then. The driver would reach the same result, but takes several times as long.
+// INTERNAL: SPIRV-Tools fails.
 absl::StatusOr<std::vector<std::uint32_t>> specialise(Spirv kernel, std::span<const std::uint32_t> constants);
 
-// Changes where SPIRV-Tools do.
+// A number that changes with the version of SPIRV-Tools, for the keys of kernels that are kept on disk.
 std::uint64_t specialiser_version();
 
 }  // namespace isofield::shaders

@@ -12,7 +12,7 @@ namespace isofield {
 ExitCode report_error(const absl::Status& error, bool json) {
   std::string message(error.message());
   const ExitCode code = exit_code(error);
-  // The library, which says the rest, knows nothing of options.
+  // The library's message does not know the options of this program.
   if (code == kNoServer && absl::EndsWith(message, "start isofieldd there")) message += " or state another --server";
   std::fprintf(stderr, "isofield: %s\n", message.c_str());
   if (json) {

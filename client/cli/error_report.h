@@ -6,8 +6,8 @@
 
 namespace isofield {
 
-// Prints an error: words for people to the standard error, and with `json` besides an object for machines to the
-// standard output, {"error": {"code": "NOT_FOUND", "message": ..., "exit_code": 1}}. Returns the exit code.
+// Prints an error in words on the standard error. With `json` it also prints an object for machines on the standard
+// output, {"error": {"code": "NOT_FOUND", "message": ..., "exit_code": 1}}. Returns the exit code.
 ExitCode report_error(const absl::Status& error, bool json);
 
 }  // namespace isofield

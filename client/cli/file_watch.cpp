@@ -36,8 +36,8 @@ FileWatch::~FileWatch() {
 absl::Status FileWatch::watch(const std::string& path) {
   const std::filesystem::path file(path);
   const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
-  // A folder that is watched already keeps its number. A file that is only opened for writing is not complete, so
-  // IN_CREATE counts for links alone.
+  // A folder that is watched already keeps its number. IN_CREATE counts for links only: a file that has just been
+  // created is not complete before it is closed.
   const int number = ::inotify_add_watch(
       descriptor_, folder.c_str(),
       IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
@@ -51,7 +51,7 @@ absl::Status FileWatch::follow() {
   if (auto status = watch(path_); !status.ok()) return status;
   std::error_code failure;
   const auto target = std::filesystem::canonical(path_, failure);
-  // A link that leads nowhere may do so again.
+  // A link that leads nowhere is watched itself; it may lead to a file later.
   return failure || !std::filesystem::is_symlink(path_, failure) ? absl::OkStatus() : watch(target.string());
 }
 
@@ -86,10 +86,10 @@ absl::StatusOr<bool> FileWatch::take_events(bool blocks) {
 absl::Status FileWatch::wait() {
   absl::StatusOr<bool> changed = false;
   while (changed.ok() && !*changed) changed = take_events(true);
-  // What came with it belongs to the same change.
+  // Events that are there already belong to the same change.
   for (absl::StatusOr<bool> more = changed; more.ok() && *more;) more = take_events(false);
   if (!changed.ok()) return changed.status();
-  // Before the caller reads the file, so that no change of what a link leads to is missed.
+  // The target of a link is looked up before the caller reads the file, so that no change of it is missed.
   return follow();
 }
 

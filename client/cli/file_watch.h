@@ -10,13 +10,13 @@
 
 namespace isofield {
 
-// Tells when a file has changed: it was written and closed, or another one was put in its place, as editors do. The
-// folder is watched, so the file may vanish for a while. Of a symbolic link the file that it leads to counts as well.
+// Tells when a file has changed: somebody has written and closed it, or put another one in its place, as editors do.
+// The folder is watched, so the file may vanish for a while. For a symbolic link, changes of its target count as well.
 //
 // Linux only (inotify); single-threaded.
 class FileWatch {
  public:
-  // Changes count from here on. Errors name the path: its folder must be there.
+  // Changes count from this call on. The folder of the file must exist. Errors name the path.
   static absl::StatusOr<std::unique_ptr<FileWatch>> create(const std::string& path);
   ~FileWatch();
   FileWatch(const FileWatch&) = delete;
@@ -31,12 +31,12 @@ class FileWatch {
   // Watches the folders of the path and of what it leads to at present.
   absl::Status follow();
   absl::Status watch(const std::string& path);
-  // Takes the events that have come, waiting for some if `blocks`; whether one is the file's.
+  // Takes the events that have come, and waits for some if `blocks`. True where one of them is about the file.
   absl::StatusOr<bool> take_events(bool blocks);
 
   const std::string path_;
   const int descriptor_;
-  std::vector<std::pair<int, std::string>> names_;  // by watched folder
+  std::vector<std::pair<int, std::string>> names_;  // number of a watched folder, and a file's name in it
 };
 
 }  // namespace isofield

@@ -15,7 +15,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
 
-// The shortest digits that give the number back.
+// The shortest decimal number that reads back as the same value; null where it is not finite.
 template <class Number>
 std::string number(Number value) {
   if (!std::isfinite(value)) return "null";
@@ -23,7 +23,7 @@ std::string number(Number value) {
   return std::string(digits, std::to_chars(digits, digits + sizeof(digits), value).ptr);
 }
 
-// The length of the UTF-8 character that starts there; 0: none does.
+// The length in bytes of the UTF-8 character at the start of `text`; 0 where the bytes are not UTF-8.
 std::size_t character_length(absl::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
@@ -32,7 +32,7 @@ std::size_t character_length(absl::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xc0) != 0x80) return 0;
   }
-  // Overlong forms, surrogates and what is beyond Unicode.
+  // These are overlong forms, surrogates and codes beyond Unicode.
   const unsigned first = length > 1 ? byte(1) : 0;
   if ((byte(0) == 0xe0 && first < 0xa0) || (byte(0) == 0xed && first > 0x9f) || (byte(0) == 0xf0 && first < 0x90) ||
       (byte(0) == 0xf4 && first > 0x8f)) {
@@ -41,7 +41,7 @@ std::size_t character_length(absl::string_view text) {
   return length;
 }
 
-// In quotes. Names of files need not be UTF-8, which JSON is: what is none becomes U+FFFD.
+// A JSON string. JSON is UTF-8, but names of files need not be: other bytes become U+FFFD.
 std::string quoted(absl::string_view text) {
   std::string out = "\"";
   while (!text.empty()) {
@@ -70,7 +70,7 @@ std::string list(const Items& items, const Format& format) {
   return out + "]";
 }
 
-// A field's value, or that of its element `i` where it is a list.
+// The value of a field, or that of its element `i` where the field is a list, as JSON.
 std::string value_of(const Message& message, const FieldDescriptor* field, int i) {
   const Reflection& r = *message.GetReflection();
   const bool is_list = field->is_repeated();

@@ -11,13 +11,13 @@
 
 namespace isofield {
 
-// An object for --json, built field by field: keys keep the order in which they are set, and those of messages the
-// contract's. Numbers are numbers, 64-bit ones too; infinities and NaN are null.
+// An object for --json, built field by field. Keys keep the order in which they are set; fields of messages keep the
+// order of the .proto files. Numbers are JSON numbers, 64-bit ones too; infinities and NaN are null.
 class JsonObject {
  public:
   JsonObject() = default;
-  // Starts with the fields of a message, under the contract's names. Those that are not set are there with their
-  // defaults, except optional ones and messages. Enum values are names, bytes Base64.
+  // Starts with the fields of a message, named as in the .proto files. Fields that are not set have their defaults, but
+  // optional ones and messages are left out then. Enum values are written as names, bytes as Base64.
   explicit JsonObject(const google::protobuf::Message& message);
 
   JsonObject& set(const std::string& key, double value);
@@ -36,8 +36,9 @@ class JsonObject {
     return set(key, JsonObject(message));
   }
 
+  // The object on one line.
   std::string text() const;
-  // One line on the standard output.
+  // Prints text() as a line on the standard output.
   void print() const;
 
  private:
@@ -47,7 +48,7 @@ class JsonObject {
   std::vector<std::pair<std::string, std::string>> fields_;
 };
 
-// One line on the standard output: the message as JsonObject writes it.
+// Prints a message as JsonObject writes it, as a line on the standard output.
 void print_json(const google::protobuf::Message& message);
 
 JsonObject to_json(const ImportReport& report);

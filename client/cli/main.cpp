@@ -15,7 +15,7 @@
 namespace isofield {
 namespace {
 
-// "-.5" is a number; CLI11 would take it for an option.
+// The arguments with "-.5" written as "-0.5": CLI11 would take the former for an option.
 std::vector<std::string> readable_arguments(int argc, char** argv) {
   std::vector<std::string> arguments(argv, argv + argc);
   for (std::string& text : arguments) {
@@ -40,7 +40,8 @@ int main(int argc, char** argv) {
       "Exit codes: 0 success; 1 the server refused the request or failed; 2 wrong usage; 3 no server answers;\n"
       "4 a file cannot be read, understood or written.\n"
       "With --json an error is {\"error\": {\"code\", \"message\", \"exit_code\"}} on the standard output, with the\n"
-      "words on the standard error besides. Keys keep their order, numbers are numbers, and infinities and NaN are null.");
+      "words on the standard error besides. Keys keep their order, numbers are numbers, and infinities and NaN are "
+      "null.");
   app.add_option("--server", context.server, "The server's address: HOST:PORT, [IPV6]:PORT or unix:PATH")
       ->envname("ISOFIELD_SERVER")
       ->default_str("127.0.0.1:50051");
@@ -73,7 +74,7 @@ int main(int argc, char** argv) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
     context.outcome = usage_error(explain_usage(app, error));
-    // The line was not understood as a whole, so the flag may not have been reached.
+    // CLI11 stops at an error, so that it may not have seen the flag.
     context.json = std::count(arguments.begin(), arguments.end(), "--json") > 0;
   }
   const ExitCode code = context.outcome.ok() ? kSuccess : report_error(context.outcome, context.json);

@@ -7,8 +7,9 @@
 
 namespace isofield {
 
-// Refuses an output whose name ends like a kind of file that the command does not write, such as a scene "a.glb", with
-// a word on the command that does. `written`: the endings that the command knows; other names are left to it.
+// Refuses an output whose ending is that of a kind of file which the command does not write, and names the command that
+// does: "a.glb" is no name for a scene. `written` has the endings that the command writes. Unknown endings are
+// accepted.
 absl::Status check_output_ending(const std::string& path, std::initializer_list<const char*> written);
 
 }  // namespace isofield

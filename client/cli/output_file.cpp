@@ -59,7 +59,7 @@ absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(const std::string
     return std::unique_ptr<OutputFile>(new OutputFile(path, "", descriptor));
   }
   std::string temporary = path + ".XXXXXX";
-  // Known to the signal handler before the file is there: mkostemp fills the name in.
+  // The signal handler must know the name before the file exists, so mkostemp fills in the name that it reads.
   const bool is_short = temporary.size() < sizeof(pending_path);
   char* const name = is_short ? std::strcpy(pending_path, temporary.c_str()) : temporary.data();
   is_pending = is_short ? 1 : 0;

@@ -47,8 +47,7 @@ class OutputFile {
 
 // Makes SIGINT, SIGTERM and SIGHUP remove the temporary file before they end the process. Once, at the start.
 void remove_output_when_interrupted();
-// From here on SIGINT and SIGTERM are how the program is meant to end: the temporary file is removed, the exit code is
-// 0.
+// Makes SIGINT and SIGTERM a normal end of the program: the temporary file is removed and the exit code is 0.
 void end_well_when_interrupted();
 
 }  // namespace isofield

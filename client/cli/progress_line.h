@@ -13,7 +13,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  // "stage: TEXT", at most ten times a second, and whenever the stage is another one.
+  // Shows "STAGE: TEXT", at most ten times a second and whenever the stage changes.
   void show(const std::string& stage, const std::string& text);
 
  private:

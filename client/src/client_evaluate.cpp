@@ -115,8 +115,8 @@ class StreamedEvaluation {
 
   absl::Status read_all(std::uint64_t columns, const Client::ResultSink& sink) {
     v1::EvaluateResponse response;
-    std::size_t number = 0;    // of the chunk
-    std::size_t answered = 0;  // points of it
+    std::size_t number = 0;    // of the chunk that is being answered
+    std::size_t answered = 0;  // points of this chunk that are answered already
     while (stream_->Read(&response)) {
       std::span<const float> xyz;
       {
@@ -289,7 +289,7 @@ absl::StatusOr<Grid> Client::evaluate_grid(const v1::SceneRef& scene, const std:
     v1::EvaluateGridResponse response;
     absl::Status status;
     while (status.ok() && stream->Read(&response)) {
-      // Parts of layers follow one another without a gap, as whole ones do.
+      // Parts follow one another without a gap, whether they are whole layers or not.
       const std::uint64_t row = response.first_layer() * counts[1] + response.first_row();
       if ((row * counts[0] + response.first_column()) * columns != grid.values.size()) {
         status = absl::InternalError("the server sent the parts of a grid out of order");

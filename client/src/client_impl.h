@@ -31,7 +31,7 @@ struct Chunk {
 // The next one; empty: there are no more.
 using ChunkSource = std::function<absl::Status(Chunk& chunk)>;
 
-// Bytes of a message that the channel receives, stated to the server as max_answer_bytes.
+// The largest message, in bytes, that the channel receives. Requests state it to the server as max_answer_bytes.
 inline constexpr int kMaxAnswerBytes = 64 << 20;
 
 struct Client::Impl {

@@ -7,7 +7,7 @@ namespace isofield {
 std::string excerpt(absl::string_view text) {
   constexpr std::size_t kMost = 80;
   std::string result(text.substr(0, kMost));
-  // A terminal obeys control characters, and half a character of several bytes is none.
+  // Control characters would act on the terminal, and the cut may leave half a UTF-8 character.
   for (char& c : result) {
     if (!absl::ascii_isprint(static_cast<unsigned char>(c))) {
       c = absl::ascii_isspace(static_cast<unsigned char>(c)) ? ' ' : '?';

@@ -6,7 +6,7 @@
 
 namespace isofield {
 
-// The beginning of a text that others wrote, for errors: at most 80 characters, all printable ASCII.
+// The beginning of a user's text, fit for an error message: at most 80 characters, all of them printable ASCII.
 std::string excerpt(absl::string_view text);
 
 }  // namespace isofield

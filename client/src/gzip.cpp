@@ -17,10 +17,10 @@ absl::Status damaged(const char* why) {
   return absl::InvalidArgumentError(absl::StrCat("damaged gzip data: ", why));
 }
 
-// Appends what one member holds, and drops it from `data`.
+// Unpacks the first member of `data`, appends it to `unpacked` and removes it from `data`.
 absl::Status unpack_member(absl::string_view& data, std::size_t limit, std::string& unpacked) {
   z_stream stream{};
-  // 16: the header and the checksum are gzip's.
+  // Adding 16 makes zlib expect gzip's header and checksum.
   if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK) return absl::ResourceExhaustedError("no memory for unpacking");
   const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, &inflateEnd);
   const auto chunk = std::make_unique<char[]>(kChunk);
@@ -55,7 +55,7 @@ bool is_gzip(absl::string_view data) {
 absl::StatusOr<std::string> gunzip(absl::string_view data, std::size_t limit) {
   std::string unpacked;
   while (!data.empty()) {
-    // Tapes and block devices pad a file with zeros.
+    // Zeros after the last member are padding, as tapes and block devices add it.
     if (!is_gzip(data)) {
       if (data.find_first_not_of('\0') == data.npos) break;
       return damaged("something else follows it");

@@ -8,10 +8,10 @@
 
 namespace isofield {
 
-// What a packed file may hold at most, so that a small file cannot fill the memory.
+// The most bytes that a packed file may hold, so that a small file cannot fill the memory.
 inline constexpr std::size_t kMostUnpackedBytes = std::size_t{4} << 30;
 
-// By the first bytes, whatever the file's name is.
+// True where data begins with the two bytes that mark a gzip file.
 bool is_gzip(absl::string_view data);
 
 // Unpacks all members of a gzip file, one after the other. INVALID_ARGUMENT: it is damaged or ends early.

@@ -19,10 +19,10 @@ using google::protobuf::EnumDescriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::OneofDescriptor;
 
-// Deeper than any message of ours, and no deeper than the stack allows.
+// The deepest nesting that is read. No message of the contract needs so much, and the stack allows it.
 constexpr int kMostDepth = 100;
 
-// A field by either of its names in JSON; nullptr: there is none.
+// The field of this name, which may be the one of the .proto file or the one of JSON; nullptr where there is none.
 const FieldDescriptor* field_of(const Descriptor& type, const std::string& name) {
   if (const FieldDescriptor* field = type.FindFieldByName(name)) return field;
   for (int i = 0; i < type.field_count(); ++i) {
@@ -58,7 +58,7 @@ class Walker {
   }
 
  private:
-  // All of these return false once the misfit is known.
+  // All functions that read a part of the text return false once a misfit is found.
   bool fail(JsonMisfit::Kind kind, std::size_t at, std::string text) {
     if (misfit_.kind != JsonMisfit::Kind::kNone) return false;
     at = std::min(at, text_.size());
@@ -94,7 +94,7 @@ class Walker {
     return true;
   }
 
-  // A string; escapes stay as they are but for the simple ones, which names do not have.
+  // Reads a string. Escapes are not decoded (the backslash is dropped), since the names that are looked up have none.
   bool string(std::string& out) {
     if (!next_is('"')) return syntax("a text in double quotes");
     const std::size_t start = at_++;
@@ -123,7 +123,7 @@ class Walker {
     return syntax("a value");
   }
 
-  // What is between brackets, item by item.
+  // Reads a list between brackets; `item` reads one of its items.
   template <class Item>
   bool list(char open, char close, const Item& item) {
     if (!take(open)) return false;
@@ -229,7 +229,8 @@ class Walker {
                                 names.empty() ? "it has none" : "expected one of " + absl::StrJoin(names, ", ")));
   }
 
-  // Puts the node's name behind its place, where it states one: "nodes[2] 'arm'.sphere". It may come after the fault.
+  // Adds the node's name to its place, if it has one: "nodes[2] 'arm'.sphere". The whole node is read for this, since
+  // the name may come after the misfit.
   std::string with_name(const std::string& path) const {
     const std::size_t end = path.find(']');
     if (end == std::string::npos || path.find('.') < end) return path;
@@ -246,7 +247,7 @@ class Walker {
 
   const absl::string_view text_;
   std::size_t at_ = 0;
-  std::size_t node_at_ = 0;  // where the object of the list that is read begins
+  std::size_t node_at_ = 0;  // where the object begins that is an item of a list of the outermost message
   JsonMisfit misfit_;
 };
 

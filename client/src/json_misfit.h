@@ -7,21 +7,21 @@
 
 namespace isofield {
 
-// The first place of a JSON text that does not fit a message, worded better than protobuf does.
+// The first place at which a JSON text does not fit a message. Its text says more than protobuf's own errors do.
 struct JsonMisfit {
   enum class Kind {
     kNone,
-    // No JSON, or of a looser kind, which protobuf may yet read.
+    // The text is no JSON, or JSON of a looser kind, which protobuf may accept all the same.
     kSyntax,
-    // A field that the message does not have, or that stands there twice; a second kind; a value of another type.
+    // A field does not exist or is stated twice, two fields of one oneof are stated, or a value has the wrong type.
     kMeaning,
   };
   Kind kind = Kind::kNone;
-  std::string place;  // "12:7": line and column, from 1; a column is a byte
-  std::string text;   // "nodes[2] 'arm'.sphere has no field \"radus\"; did you mean ..."
+  std::string place;  // line and column, both from 1, such as "12:7"; columns are counted in bytes
+  std::string text;   // such as "nodes[2] 'arm'.sphere has no field \"radus\"; did you mean ..."
 };
 
-// Looks at names and at what kinds of values they have; numbers and the like are left to protobuf.
+// Checks the names of fields and the types of their values. Ranges of numbers are left to protobuf.
 JsonMisfit find_misfit(absl::string_view text, const google::protobuf::Descriptor& type);
 
 }  // namespace isofield

@@ -18,7 +18,9 @@ constexpr absl::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 absl::Status parse_json(const std::string& text, const std::string& name, const std::string& what,
                         google::protobuf::Message& message) {
-  if (absl::StartsWith(text, kByteOrderMark)) return parse_json(text.substr(kByteOrderMark.size()), name, what, message);
+  if (absl::StartsWith(text, kByteOrderMark)) {
+    return parse_json(text.substr(kByteOrderMark.size()), name, what, message);
+  }
   const JsonMisfit misfit = find_misfit(text, *message.GetDescriptor());
   const auto refuse = [&] {
     return absl::InvalidArgumentError(absl::StrCat(name, ":", misfit.place, ": not ", what, " in JSON: ", misfit.text));

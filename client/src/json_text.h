@@ -13,11 +13,12 @@ namespace isofield {
 absl::Status parse_json(const std::string& text, const std::string& name, const std::string& what,
                         google::protobuf::Message& message);
 
-// Whether bytes begin as a JSON object does.
+// True where the content begins like a JSON object.
 bool is_json(absl::string_view content);
 
-// The content of a file that holds a message as proto3 JSON or in binary, into the message: by the content, and where
-// that is no JSON object, by the name: *.pb is binary. INVALID_ARGUMENT: it is neither; as parse_json().
+// Reads the content of a file that holds a message in proto3 JSON or in binary. It is binary where it does not begin
+// like a JSON object and `name` ends with .pb (or .pb.gz). INVALID_ARGUMENT: it is no such message; JSON's errors are
+// those of parse_json().
 absl::Status parse_file(const std::string& content, const std::string& name, const std::string& what,
                         google::protobuf::Message& message);
 

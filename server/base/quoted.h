@@ -1,4 +1,4 @@
-// Text of others in messages: names that a client sent, made fit to be read and to travel in a status.
+// Makes texts that a client sent, such as names, fit for error messages: readable, short and valid in a gRPC status.
 #pragma once
 
 #include <absl/strings/string_view.h>
@@ -8,15 +8,16 @@
 
 namespace isofield::base {
 
-// Characters of a name that errors repeat.
+// The most characters of a name that errors repeat.
 inline constexpr std::size_t kQuotedCharacters = 80;
 
-// `text` as valid UTF-8 without control characters: these, and bytes that are no UTF-8, become escapes such as \n and
-// \x1b. Where it would have more characters or bytes than these it is cut and ends with "..."; an escape has several.
+// Turns `text` into valid UTF-8 without control characters: these, and bytes that are not UTF-8, become escapes such as
+// \n and \x1b. A result that would have more than `most_characters` or `most_bytes` is cut, and "..." is appended. An
+// escape counts as several characters.
 std::string printable(absl::string_view text, std::size_t most_characters,
                       std::size_t most_bytes = std::string::npos);
 
-// As many whole characters of `text`, which is UTF-8, as its first `most` bytes hold.
+// The longest beginning of `text`, which is UTF-8, that has at most `most` bytes and ends with a whole character.
 absl::string_view utf8_prefix(absl::string_view text, std::size_t most);
 
 // printable() in single quotes, cut at kQuotedCharacters.

@@ -27,19 +27,19 @@ class FieldReader {
     status_ = absl::InvalidArgumentError(absl::StrCat(path_, ".", field, " = ", value, ": expected ", expected));
   }
 
-  // Of a field that is left out, where the message can tell that.
+  // Refuses a field that is left out, where the message can tell that it is.
   void miss(absl::string_view field, absl::string_view expected) {
     if (!status_.ok()) return;
     status_ = absl::InvalidArgumentError(absl::StrCat(path_, ".", field, " is missing: expected ", expected));
   }
-  // A number that is left out arrives as 0.
+  // Refuses a number. One that is left out arrives as 0, so the error for 0 speaks of both.
   void refuse_number(absl::string_view field, double value, absl::string_view expected) {
     if (!status_.ok()) return;
     if (value != 0) return refuse(field, absl::StrCat(value), expected);
     status_ = absl::InvalidArgumentError(absl::StrCat(path_, ".", field, " is missing or 0: expected ", expected));
   }
 
-  // An empty list is one that is left out.
+  // Refuses a list by its number of elements. An empty list cannot be told from one that is left out.
   void refuse_count(absl::string_view field, int count, absl::string_view expected) {
     count == 0 ? miss(field, expected) : refuse(field, absl::StrCat("[", count, " numbers]"), expected);
   }
@@ -48,7 +48,7 @@ class FieldReader {
     if (!(value >= least && value <= most)) refuse(field, absl::StrCat(value), expected);
     return value;
   }
-  // Of a field that has no default and whose message cannot tell whether it is there.
+  // Checks a number that has no default, where the message cannot tell whether it is stated.
   double required_number(absl::string_view field, double value, double least, double most, absl::string_view expected) {
     if (!(value >= least && value <= most)) refuse_number(field, value, expected);
     return value;
@@ -57,7 +57,7 @@ class FieldReader {
   double positive(absl::string_view field, double value, absl::string_view component = "") {
     if (!(value >= kMinLength && value <= kMaxCoordinate)) {
       const std::string expected = absl::StrCat("a length > 0, within [", kMinLength, ", ", kMaxCoordinate, "]");
-      // A vector's component is there where the vector is.
+      // A component cannot be missing where the vector is there.
       if (component.empty()) return refuse_number(field, value, expected), value;
       refuse(absl::StrCat(field, component), absl::StrCat(value), expected);
     }

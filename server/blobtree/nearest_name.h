@@ -1,4 +1,4 @@
-// Which of the names that exist a mistyped one was meant to be.
+// Suggestions for mistyped names.
 #pragma once
 
 #include <absl/strings/string_view.h>
@@ -8,11 +8,12 @@
 
 namespace isofield::blobtree {
 
-// The name that the fewest insertions, deletions, replacements and swaps of neighbouring letters make of `wanted`;
-// upper and lower case are the same. Empty where that is more than a third of its letters, and more than one.
+// The one of `names` that needs the fewest insertions, deletions, replacements and swaps of neighbouring letters from
+// `wanted`; case does not matter. Empty where it needs more of them than a third of the letters of `wanted` (but one is
+// always allowed).
 std::string nearest_name(absl::string_view wanted, const std::vector<std::string>& names);
 
-// "; did you mean 'radius'?", or nothing where no name is near.
+// A suggestion to append to an error, such as "; did you mean 'radius'?". Empty where no name is near.
 std::string did_you_mean(absl::string_view wanted, const std::vector<std::string>& names);
 
 }  // namespace isofield::blobtree

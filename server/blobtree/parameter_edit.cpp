@@ -23,12 +23,13 @@ absl::Status refuse(const ParameterEdit& edit, const std::string& why) {
                                                  base::printable(edit.field, base::kQuotedCharacters), ": ", why));
 }
 
-// The node's kind: what is set in the oneof; nullptr: nothing.
+// The field of the node's kind, that is the one that is set in the oneof; nullptr where none is.
 const FieldDescriptor* kind_of(const v1::Node& node) {
   return node.GetReflection()->GetOneofFieldDescriptor(node, v1::Node::descriptor()->FindOneofByName("kind"));
 }
 
-// By its name in scene.proto, or in JSON: "radius_a" or "radiusA". nullptr: there is none.
+// The field of this name, which may be the one of scene.proto ("radius_a") or of JSON ("radiusA"); nullptr where there
+// is none.
 const FieldDescriptor* field_of(const Descriptor& type, const std::string& name) {
   const FieldDescriptor* field = type.FindFieldByName(name);
   for (int i = 0; field == nullptr && i < type.field_count(); ++i) {
@@ -37,7 +38,7 @@ const FieldDescriptor* field_of(const Descriptor& type, const std::string& name)
   return field;
 }
 
-// The numbers of a kind of node, those in its messages as "opening.alpha0".
+// The names of the numeric fields of a kind of node. Fields of a message within it are named like "opening.alpha0".
 std::vector<std::string> numeric_fields(const Descriptor& type) {
   std::vector<std::string> names;
   for (int i = 0; i < type.field_count(); ++i) {

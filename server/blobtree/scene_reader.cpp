@@ -19,7 +19,7 @@
 namespace isofield::blobtree {
 namespace {
 
-// Of a node's name and of the unit, which answers repeat.
+// The most bytes of a node's name and of the unit, which answers repeat.
 constexpr std::size_t kMaxNameCharacters = 256;
 
 // Names of nodes, and what "name" or "#i" refers to.
@@ -41,7 +41,7 @@ class References {
     return absl::OkStatus();
   }
 
-  // That `reference`, of which `what` is "child" or "root", is to no node.
+  // The error for a reference to no node. `what` says where it stands: at a child or at the root.
   absl::Status refuse(absl::string_view what, const std::string& reference, std::size_t node_count) const {
     std::vector<std::string> names;
     for (const auto& [name, index] : names_) names.push_back(name);

@@ -45,7 +45,7 @@ class Catalog {
                           std::shared_ptr<const blobtree::OperatorTable> operators, const Condition& condition);
   // NOT_FOUND, with the names that there are.
   absl::StatusOr<Entry> get(const std::string& name) const;
-  // Those whose names come after this one, by name.
+  // The scenes whose names come after this one, in the order of their names.
   std::vector<Entry> list(const std::string& after = "") const;
   // The version that is gone. NOT_FOUND.
   absl::StatusOr<std::uint64_t> remove(const std::string& name);

@@ -34,7 +34,7 @@ class OperatorCatalog {
                                     std::shared_ptr<const operators::Operator> op);
   // NOT_FOUND, with the names that there are.
   absl::StatusOr<OperatorEntry> get(const std::string& name) const;
-  // Those whose names come after this one, by name.
+  // The operators whose names come after this one, in the order of their names.
   std::vector<OperatorEntry> list(const std::string& after = "") const;
   absl::Status remove(const std::string& name);
   std::uint64_t size() const;

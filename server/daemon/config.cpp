@@ -21,8 +21,8 @@
 namespace isofield::daemon {
 namespace {
 
-// Accepts whole numbers within [least, most]. CLI11's own range also takes "5x" for a number, and does not say what
-// kind it expects.
+// Accepts whole numbers within [least, most]. CLI11's own range accepts "5x" as a number, and does not say which kind
+// of number it expects.
 CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
   const std::string range = absl::StrCat("within [", least, ", ", most, "]");
   return CLI::Validator(
@@ -36,8 +36,8 @@ CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
 
 constexpr absl::string_view kPrefix = "ISOFIELD_";
 
-// All options, each with the variable of the environment that is named after it. CLI11 does not get to know the
-// variables: it would let a file override them, and would not name one in an error.
+// All options, each with the environment variable that is named after it. CLI11 is not told of the variables, since it
+// would let a file override them, and would not name them in errors.
 class Options {
  public:
   explicit Options(const std::string& version)
@@ -97,7 +97,7 @@ class Options {
         ->check(whole(1, std::uint64_t{1} << 48));
   }
 
-  // An option that a file or the environment may set, too.
+  // An option that a file or the environment may set as well.
   struct Settable {
     CLI::Option* option;
     std::string name;      // "max-nodes"
@@ -126,7 +126,7 @@ class Options {
   }
 };
 
-// Parses the arguments, which CLI11 takes from the end.
+// Parses the arguments, which CLI11 wants in reverse order.
 void parse(Options& options, std::vector<std::string> arguments) {
   std::reverse(arguments.begin(), arguments.end());
   options.app.parse(arguments);
@@ -136,7 +136,8 @@ bool is_flag(const CLI::Option& option) {
   return option.get_items_expected_min() == 0;
 }
 
-// Appends a setting as it would stand on the command line. "--device=" would be one without a value.
+// Appends a setting as arguments of the command line. An option and its value are two arguments, since CLI11 takes
+// "--device=" for an option without a value.
 void append_setting(const CLI::Option& option, const std::string& name, const std::string& value,
                     std::vector<std::string>& arguments) {
   if (is_flag(option)) {
@@ -146,7 +147,7 @@ void append_setting(const CLI::Option& option, const std::string& name, const st
   }
 }
 
-// What is wrong with one setting by itself: "expected ...", or nothing.
+// Says what is wrong with one setting by itself, "expected ..."; empty where nothing is.
 std::string fault_of(const std::string& name, const std::string& value) {
   Options options("");
   std::vector<std::string> arguments;
@@ -154,7 +155,7 @@ std::string fault_of(const std::string& name, const std::string& value) {
   try {
     parse(options, arguments);
   } catch (const CLI::ConversionError&) {
-    return "expected true or false";  // numbers are checked before
+    return "expected true or false";  // it is a flag: faulty numbers fail their check, which is a ParseError
   } catch (const CLI::ParseError& error) {
     const std::string what = error.what();
     return std::string(absl::StripPrefix(what, absl::StrCat("--", name, ": ")));
@@ -162,7 +163,7 @@ std::string fault_of(const std::string& name, const std::string& value) {
   return "";
 }
 
-// That the line's value is of the option's type, in TOML's sense: a number in quotes is a text.
+// Checks that the line's value has the option's type. As in TOML, a number in quotes is a text.
 absl::Status check_kind(const CLI::Option& option, const ConfigLine& line) {
   using Kind = ConfigLine::Kind;
   Kind wanted = Kind::kWholeNumber;
@@ -178,7 +179,7 @@ absl::Status check_kind(const CLI::Option& option, const ConfigLine& line) {
   return absl::InvalidArgumentError(absl::StrCat("expected ", expected));
 }
 
-// The file's settings as flags.
+// The file's settings as arguments of the command line.
 absl::StatusOr<std::vector<std::string>> flags_of_file(const Options& options, const std::string& path) {
   ISOFIELD_ASSIGN_OR_RETURN(const std::vector<ConfigLine> lines, read_config_file(path));
   std::vector<std::string> names, flags;
@@ -204,8 +205,8 @@ absl::StatusOr<std::vector<std::string>> flags_of_file(const Options& options, c
   return flags;
 }
 
-// The environment's settings as flags. An empty variable counts as none. A variable that is named nearly as an option's
-// is refused; others may be another program's, or a cluster's.
+// The environment's settings as arguments of the command line. An empty variable counts as none. A variable
+// ISOFIELD_... whose name is near that of an option is refused; others may belong to another program or to a cluster.
 absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& options) {
   std::vector<std::string> variables, flags;
   for (const Options::Settable& settable : options.settable) variables.push_back(settable.variable);
@@ -213,7 +214,7 @@ absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& opt
     const absl::string_view text = *entry;
     const std::string variable(text.substr(0, text.find('=')));
     if (!absl::StartsWith(variable, kPrefix) || std::count(variables.begin(), variables.end(), variable)) continue;
-    // Of what follows the prefix that all share, or most names would be near.
+    // Only the parts after the common prefix are compared; with it most names would be near.
     std::vector<std::string> tails;
     for (const std::string& known : variables) tails.push_back(known.substr(kPrefix.size()));
     const std::string tail = blobtree::nearest_name(absl::string_view(variable).substr(kPrefix.size()), tails);
@@ -234,10 +235,10 @@ absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& opt
   return flags;
 }
 
-// An error of the command line, with the option that was meant where one is unknown.
+// The text of an error of the command line. For an unknown option it suggests the nearest known one.
 std::string explain(const Options& options, const CLI::ParseError& error) {
   const std::vector<std::string> extras = options.app.remaining();
-  // Of flags alone: numbers are checked before, and texts need no conversion.
+  // Only flags fail so: faulty numbers fail their check, and texts need no conversion.
   if (dynamic_cast<const CLI::ConversionError*>(&error)) return absl::StrCat(error.what(), "; expected true or false");
   if (extras.empty()) return error.what();
   const std::string wanted = extras.front().substr(0, extras.front().find('='));
@@ -255,12 +256,13 @@ ParsedConfig refuse(absl::string_view message) {
 
 ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   std::vector<std::string> flags(argv + std::min(argc, 1), argv + argc);
-  // The command line by itself first: --help and --version come before everything, and it names the file.
+  // The command line is parsed by itself first: --help and --version come before everything else, and --config names
+  // the file.
   Options stated(version);
   try {
     parse(stated, flags);
   } catch (const CLI::Success& success) {
-    // For --help, which lists them.
+    // CLI11 is told of the variables for --help, which lists them.
     for (const Options::Settable& settable : stated.settable) settable.option->envname(settable.variable);
     return {std::nullopt, stated.app.exit(success)};
   } catch (const CLI::ParseError& error) {

@@ -19,7 +19,7 @@ struct Config {
   int max_threads = 256;
   bool shared_memory = false;
   std::uint64_t hot_points = 1u << 20;  // 0: no kernel is written
-  bool compile_ahead = true;            // kernels that scenes which are edited are likely to need
+  bool compile_ahead = true;            // compile what edited scenes are likely to need next
   std::size_t max_kernels = engine::KernelOptions{}.most;
   rpc::Limits limits;
 };

@@ -1,4 +1,4 @@
-// A configuration file: lines `key = value` of TOML, one for each option.
+// Reads a configuration file: a TOML file with a line `key = value` for each option.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -15,11 +15,12 @@ struct ConfigLine {
   std::string key;
   Kind kind = Kind::kText;
   std::string value;    // without quotes; whole numbers in decimal digits
-  std::string written;  // as the file has it
+  std::string written;  // the value as the file has it
 };
 
-// NOT_FOUND, PERMISSION_DENIED ...: the file cannot be read. INVALID_ARGUMENT: a line is none of TOML's `key = value`
-// with a string, a number, true or false, or a key stands there twice; the message names the file and the line.
+// The settings in the order of their lines. NOT_FOUND, PERMISSION_DENIED ...: the file cannot be read.
+// INVALID_ARGUMENT: a line is not `key = value` with a string, a number, true or false, or a key is there twice; the
+// message names the file and the line.
 absl::StatusOr<std::vector<ConfigLine>> read_config_file(const std::string& path);
 
 }  // namespace isofield::daemon

@@ -139,7 +139,7 @@ absl::StatusOr<Running> start_server(const Config& config, const std::vector<grp
                                                ": is the address this machine's, and free? (--listen HOST:PORT or "
                                                "unix:PATH)"));
   }
-  // Health can be asked for by the name of a service, too.
+  // Clients may also ask for the health of one service by its name.
   for (const std::string& name : service_names()) server->GetHealthCheckService()->SetServingStatus(name, true);
   evaluate_calls->start(std::max(config.max_threads / 8, 2));
   evaluate_streams->start(std::max(config.max_threads / 8, 2));

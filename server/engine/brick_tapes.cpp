@@ -7,7 +7,8 @@
 
 namespace isofield::engine {
 
-BrickTapes::BrickTapes(gpu::Device& device, const Kernels& kernels, const ResidentScene& scene, blobtree::BrickList& list)
+BrickTapes::BrickTapes(gpu::Device& device, const Kernels& kernels, const ResidentScene& scene,
+                       blobtree::BrickList& list)
     : dispatch_runs_(device.description().dispatch_runs),
       kernels_(kernels),
       scene_(scene),
@@ -31,7 +32,8 @@ absl::Status BrickTapes::run(Session& session, const shaders::Spirv& shader, Mes
   constants.first = 0;
   for (const auto& [group, members] : jobs) {
     const KernelKind kind = group.is_single ? KernelKind::single_leaf(scene_.tape()) : KernelKind::of(scene_.tape());
-    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shader, windows_.kind(kind, group.window)));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel,
+                              kernels_.get(shader, windows_.kind(kind, group.window)));
     constants.count = static_cast<std::uint32_t>(members.size());
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel, windows_.bindings(group.window, own), constants,
                                                          (constants.count + per_workgroup - 1) / per_workgroup));

@@ -13,11 +13,11 @@ namespace isofield::engine {
 namespace {
 
 constexpr int kNiceness = 19;
-// Along the longest edge: enough for every kernel to be asked for.
+// Cells along the longest edge of the mesh that is made; enough to need every kernel.
 constexpr std::uint32_t kCells = 24;
-// Nobody uses them again: it is the driver's cache that is filled.
+// Kernels that the device holds. They are not used again: compiling them fills the driver's cache on disk.
 constexpr std::size_t kMostKernels = 64;
-// Beyond so many mixes of kinds all is forgotten, and compiled for again: the driver's cache makes that cheap.
+// Beyond so many mixes of kinds, all are forgotten and compiled again, which the driver's cache makes cheap.
 constexpr std::size_t kMostMixes = 256;
 
 }  // namespace
@@ -69,7 +69,7 @@ bool CompileAhead::is_over() const {
 }
 
 void CompileAhead::work() {
-  // Of this thread, on Linux, and of those that it starts: the device's.
+  // On Linux this lowers the priority of this thread alone, and of the threads that it starts, which are the device's.
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
   std::unique_lock lock(mutex_);
   while (true) {
@@ -89,12 +89,12 @@ void CompileAhead::compile_for(const Edited& edited) {
   if (!engine_) {
     absl::StatusOr<std::unique_ptr<Engine>> engine = Engine::create(
         device_, limits_, {}, {.is_on = false, .folder = {}}, {.most = kMostKernels, .specialised = specialised_});
-    if (!engine.ok()) return;  // what the requests' device said, they have heard
+    if (!engine.ok()) return;  // requests report errors of their own device
     engine_ = *std::move(engine);
   }
   for (const v1::Scene& likely : likely_edits(*edited.scene, edited.lease->tape())) {
     if (is_over()) return;
-    // A scene at its limits has no room for one more node.
+    // A scene at its limits has no room for another node.
     const absl::StatusOr<SceneLease> scene = engine_->make_resident(likely, *edited.operators);
     if (!scene.ok()) continue;
     Mix mix = mix_of((*scene)->tape());
@@ -114,7 +114,7 @@ void CompileAhead::rehearse(const SceneLease& scene) {
   const blobtree::Box box = is_bounded ? support : *request.bounds;
   const double longest = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
   request.cell_size = std::max(longest / kCells, least_cell_size(scene->tape(), request));
-  // What fails here fails again where somebody is told of it.
+  // Errors are ignored here, since a request that needs the kernel will report them.
   (void)engine_->mesher().mesh(*scene, request, {.cancelled = [this] { return is_over(); }});
   for (const Quantity quantity : {Quantity::kValue, Quantity::kValueAndGradient}) {
     if (!is_over()) (void)engine_->fields().prepare(*scene, quantity);

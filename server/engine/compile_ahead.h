@@ -1,4 +1,4 @@
-// Has kernels compiled in the background that a scene which is being edited is likely to need next.
+// Compiles kernels in the background that an edited scene is likely to need next.
 #pragma once
 
 #include <condition_variable>
@@ -16,27 +16,27 @@
 
 namespace isofield::engine {
 
-// The likely scenes (engine/likely_edits.h) are meshed and evaluated on a device of its own, at low priority, so that
-// requests wait for none of it. What the driver compiles there it keeps on disk, where the device that serves requests
-// finds it. Where the driver can write to no folder, the kernels are at least specialised already.
+// It meshes and evaluates the likely scenes (engine/likely_edits.h) on a device of its own, at low priority, so that no
+// request waits for this. The driver keeps what it compiles there on disk, where the device that serves requests finds
+// it. Where the driver has no folder to write to, the kernels are at least specialised already.
 //
-// Thread-safe. The device is made when the first scene is edited.
+// Thread-safe. The device is created when the first scene is edited.
 class CompileAhead {
  public:
-  // `specialised`: those of the device that serves requests.
+  // `specialised` has the specialised kernels of the device that serves requests.
   CompileAhead(gpu::DeviceOptions device, const blobtree::SceneLimits& limits,
                std::shared_ptr<SpecialisedKernels> specialised);
-  // Waits for the kernel that is being compiled.
+  // Waits until the kernel that is being compiled is finished.
   ~CompileAhead();
 
-  // A scene has been edited: of several that wait the last one counts. Returns at once.
+  // Tells that a scene has been edited, and returns at once. If several scenes wait, only the last one is worked on.
   void edited(std::shared_ptr<const v1::Scene> scene, std::shared_ptr<const blobtree::OperatorTable> operators,
               SceneLease lease);
 
-  // Until nothing is left to do.
+  // Waits until nothing is left to do.
   void wait();
 
-  // Mixes of kinds that have been compiled for.
+  // The number of mixes of kinds whose kernels have been compiled ahead.
   std::uint64_t mixes() const;
 
  private:
@@ -56,15 +56,15 @@ class CompileAhead {
   const gpu::DeviceOptions device_;
   const blobtree::SceneLimits limits_;
   const std::shared_ptr<SpecialisedKernels> specialised_;
-  std::unique_ptr<Engine> engine_;  // of the worker alone
+  std::unique_ptr<Engine> engine_;  // used by the worker alone
 
   mutable std::mutex mutex_;
   std::condition_variable wanted_more_, is_idle_;
   std::unique_ptr<Edited> wanted_;
   std::set<Mix> seen_;  // mixes of edited scenes
-  std::set<Mix> done_;  // mixes that were compiled for
+  std::set<Mix> done_;  // mixes whose kernels are compiled
   bool is_at_work_ = false, is_over_ = false;
-  std::thread worker_;  // last: it uses the others
+  std::thread worker_;  // the last member, since it uses the others
 };
 
 }  // namespace isofield::engine

@@ -77,7 +77,7 @@ void Engine::drop(std::uint64_t version) {
   resident_.erase(it);
 }
 
-// A kernel is compiled here, where nobody waits for it who does not need it.
+// Compiles the kernels of a batch before it joins the queue, so that batches that do not need them do not wait.
 absl::Status Engine::prepare(const PointBatch& batch) {
   RequestTimes unasked;
   const TimedScope timed(batch.times ? *batch.times : unasked);

@@ -37,9 +37,9 @@ struct PointBatch {
   int priority = 0;      // the higher first
   gpu::Deadline deadline = gpu::Deadline::max();
   FieldEvaluator::Cancelled cancelled;
-  // Where it is not null, is given how long the batch waited and ran, before it is done.
+  // If it is not null, it receives how long the batch waited and ran, before the batch is done.
   RequestTimes* times = nullptr;
-  // Not refused: of those whose number is limited elsewhere.
+  // True for batches whose number another limit already bounds, so that admission never refuses them.
   bool is_admitted = false;
 };
 

@@ -54,8 +54,8 @@ class FieldEvaluator {
                                Quantity quantity, std::span<float> out, const Cancelled& cancelled = {});
 
  private:
-  absl::Status evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene, std::span<const float> xyz,
-                                Quantity quantity, std::span<float> out, const Cancelled& cancelled,
+  absl::Status evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene,
+                                std::span<const float> xyz, Quantity quantity, std::span<float> out, const Cancelled& cancelled,
                                 Submission submission);
 
   absl::Status evaluate_unsorted(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,

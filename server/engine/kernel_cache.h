@@ -40,14 +40,15 @@ struct KernelKind {
 };
 
 struct KernelOptions {
-  // A kernel of a scene takes some 0.25 MB on lavapipe, and a scene's mesh about a dozen of them.
+  // The most kernels that are kept. A kernel takes some 0.25 MB on lavapipe, and the mesh of a scene needs about a
+  // dozen.
   std::size_t most = 512;
-  // May be shared with other devices; null for its own.
+  // The specialised kernels, which other devices may share. Null: the cache makes its own.
   std::shared_ptr<SpecialisedKernels> specialised;
 };
 
-// Thread-safe. A kernel that two threads want is compiled once, and the second waits. One that is freed lives on where
-// it is used.
+// Thread-safe. A kernel that two threads want at once is compiled once, and the second thread waits for it. A kernel
+// that the cache frees lives on while somebody uses it.
 class KernelCache {
  public:
   explicit KernelCache(gpu::Device& device, KernelOptions options = {})
@@ -55,7 +56,7 @@ class KernelCache {
         most_(options.most),
         specialised_(options.specialised ? std::move(options.specialised) : std::make_shared<SpecialisedKernels>()) {}
 
-  // `waits` is called before the caller waits for the driver to compile.
+  // Calls `waits` before it waits for the driver to compile.
   absl::StatusOr<gpu::SharedPipeline> get(const shaders::Spirv& shader, const KernelKind& kind = {},
                                           const std::function<void()>& waits = {});
   // That which suits the device.
@@ -86,7 +87,7 @@ class KernelCache {
   std::uint64_t uses_ = 0, compiled_ = 0;
 };
 
-// The kernels of one request, which hears when it waits for one to be compiled.
+// The kernels of one request. `waits` is called whenever the request has to wait for one to be compiled.
 class Kernels {
  public:
   Kernels(KernelCache& cache, std::function<void()> waits) : cache_(cache), waits_(std::move(waits)) {}

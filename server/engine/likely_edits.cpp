@@ -9,13 +9,14 @@
 namespace isofield::engine {
 namespace {
 
-// Of the longest edge of the scene's support.
+// The size of an added primitive, as a part of the longest edge of the scene's support.
 constexpr double kSize = 0.1;
 
-// A scene that grows by nodes at its end.
+// A copy of a scene to which nodes are appended.
 class Draft {
  public:
-  Draft(const v1::Scene& scene, const blobtree::Tape& tape) : scene_(scene), is_signed_(tape.law == operators::Law::kSigned) {
+  Draft(const v1::Scene& scene, const blobtree::Tape& tape)
+      : scene_(scene), is_signed_(tape.law == operators::Law::kSigned) {
     if (scene_.root().empty()) scene_.set_root(reference(scene_.nodes_size() - 1));
     const blobtree::Box& box = tape.support;
     if (!box.empty() && box.max.x < blobtree::kMaxCoordinate) {
@@ -42,7 +43,7 @@ class Draft {
     cylinder.set_radius(size_ / 2);
     finish(cylinder);
   }
-  // A primitive of a kind that the scene has, of which no kernel need know more.
+  // Adds a primitive of a kind that the scene has already, which needs no further kernels; a box where there is none.
   void add_known() {
     const auto& nodes = scene_.nodes();
     const auto known = std::find_if(nodes.begin(), nodes.end(), [&](const v1::Node& n) { return is_alike(n); });
@@ -52,7 +53,8 @@ class Draft {
     add() = std::move(copy);
   }
 
-  // Makes the last node one more operand of the root where that takes any number, else of a blend over both.
+  // Joins the last node with the scene: as one more operand of the root, where that takes any number, else by a new
+  // root over both.
   v1::Scene join_last() && {
     if (google::protobuf::RepeatedPtrField<std::string>* const children = children_of_root()) {
       children->Add(last());
@@ -76,7 +78,7 @@ class Draft {
 
  private:
   static std::string reference(int node) { return absl::StrCat("#", node); }
-  // A primitive that yields a field of the scene's law.
+  // True for a primitive whose field follows the scene's law.
   bool is_alike(const v1::Node& node) const {
     const google::protobuf::FieldDescriptor* const kind = node.GetDescriptor()->FindFieldByNumber(node.kind_case());
     const auto* const law = kind ? kind->message_type()->FindFieldByName("law") : nullptr;
@@ -96,7 +98,7 @@ class Draft {
     }
   }
 
-  // Of an operator that takes any number of children; null of another node.
+  // The children of the root, if it is an operator that takes any number of them; else null.
   google::protobuf::RepeatedPtrField<std::string>* children_of_root() {
     for (int i = 0; i < scene_.nodes_size(); ++i) {
       v1::Node& node = *scene_.mutable_nodes(i);

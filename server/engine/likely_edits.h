@@ -1,4 +1,4 @@
-// What a modeler is likely to do to a scene next, as far as the kernels that it needs are concerned.
+// Guesses what a modeller will do to a scene next, as far as this needs other kernels.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace isofield::engine {
 
-// The scene with one more of what models are made of most: a box, a cylinder, a difference, a gradient blend. `tape` is
-// the scene's own. Where they lie is of no account but that the surface crosses them. A scene of signed fields gets no
-// gradient blend.
+// Copies of the scene, each with one more of what most models are made of: a box, a cylinder, a difference or a
+// gradient blend. `tape` is the scene's own. The places of added nodes do not matter as long as the surface crosses
+// them. A scene of signed fields gets no gradient blend.
 std::vector<v1::Scene> likely_edits(const v1::Scene& scene, const blobtree::Tape& tape);
 
 }  // namespace isofield::engine

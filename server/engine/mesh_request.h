@@ -30,7 +30,7 @@ struct MeshRequest {
 
 struct MeshCallbacks {
   std::function<void(double)> progress;  // fraction within [0, 1], never decreasing
-  std::function<void()> compiling;       // the work waits for the driver to compile a kernel
+  std::function<void()> compiling;       // called when the work waits for the driver to compile a kernel
   std::function<bool()> cancelled;       // true: give up with CANCELLED
 };
 

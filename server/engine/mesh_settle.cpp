@@ -36,8 +36,8 @@ void set_rounding(const MeshRounding& rounding, MeshConstants& constants) {
   constants.shift = static_cast<float>(rounding.shift);
   constants.near = static_cast<float>(rounding.near);
   constants.value_room = static_cast<float>(rounding.value);
-  // From a lattice point to the one beside it the distance of a plane along two axes of the lattice changes by a third of
-  // the way or more.
+  // From a lattice point to the one beside it the distance of a plane along two axes of the lattice changes by a third
+  // of the way or more.
   constants.slope_room = static_cast<float>(3 * rounding.length / rounding.shift);
   constants.just_inside = constants.iso + std::max(std::abs(constants.iso) * 0x1p-23f, 1e-30f);
 }

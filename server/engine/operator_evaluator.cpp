@@ -52,8 +52,8 @@ absl::Status run(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes
   return absl::OkStatus();
 }
 
-// Rows of arguments as the kernel takes them: with tan(theta) in place of theta, or, of an operator that follows an angle,
-// its cosine and sine in place of the angle.
+// Rows of arguments as the kernel takes them: with tan(theta) in place of theta, or, of an operator that follows an
+// angle, its cosine and sine in place of the angle.
 std::vector<float> device_rows(std::span<const float> arguments, std::size_t operands, bool by_angle) {
   const std::size_t columns = operands + (by_angle ? 2 : 1);
   std::vector<float> rows;
@@ -63,7 +63,8 @@ std::vector<float> device_rows(std::span<const float> arguments, std::size_t ope
     rows.insert(rows.end(), row, row + operands);
     const double angle = row[operands];
     if (by_angle) {
-      rows.insert(rows.end(), {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), row[operands + 1]});
+      rows.insert(rows.end(),
+                  {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), row[operands + 1]});
     } else {
       rows.push_back(static_cast<float>(std::tan(angle)));
     }

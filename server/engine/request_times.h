@@ -1,4 +1,4 @@
-// How long the work of a request waits for its turn at the device and for kernels, and how long the device is at it.
+// Measures how long a request waits for its turn at the device and for kernels, and how long the device works for it.
 #pragma once
 
 #include <atomic>
@@ -22,8 +22,8 @@ class RequestTimes {
   std::atomic<Duration::rep> queued_ = 0, compiling_ = 0, on_device_ = 0;
 };
 
-// From its construction to its end, what sessions of this thread wait for is added to `times`. Scopes may be nested: the
-// innermost counts.
+// While it lives, the waiting times of sessions on this thread are added to `times`. Scopes may be nested; then only
+// the innermost one counts.
 class TimedScope {
  public:
   explicit TimedScope(RequestTimes& times) : outer_(current_) { current_ = &times; }
@@ -31,7 +31,7 @@ class TimedScope {
   TimedScope(const TimedScope&) = delete;
   TimedScope& operator=(const TimedScope&) = delete;
 
-  // Null: nobody asks.
+  // The times of the innermost scope of this thread; null where there is none.
   static RequestTimes* current() { return current_; }
 
  private:

@@ -1,4 +1,4 @@
-// Kernels with what a mix of opcodes switches off left out: what drivers are given.
+// Kernels without the code that a mix of opcodes does not use. These are what drivers get to compile.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -23,13 +23,13 @@ namespace isofield::engine {
 class SpecialisedKernels {
  public:
   using Kernel = std::shared_ptr<const std::vector<std::uint32_t>>;
-  // Of some 0.1 MB each.
+  // The most kernels kept in memory, of some 0.1 MB each.
   static constexpr std::size_t kMostInMemory = 128;
 
-  // `folder` keeps them on disk; empty: nowhere.
+  // `folder` keeps the kernels on disk; if it is empty, nothing does.
   explicit SpecialisedKernels(const std::string& folder = {}) : store_(folder) {}
 
-  // How many were not in memory.
+  // How many kernels have been loaded from disk or made, because they were not in memory.
   std::uint64_t made() const { return made_; }
 
   absl::StatusOr<Kernel> get(const shaders::Spirv& shader, std::span<const std::uint32_t> constants);

@@ -55,7 +55,7 @@ void SpirvStore::prune() const {
   };
   std::vector<Kept> files;
   std::uintmax_t total = 0;
-  // Others may remove files meanwhile: what cannot be asked is left out.
+  // Other processes may remove files meanwhile; files that cannot be examined are skipped.
   std::error_code error;
   for (auto it = std::filesystem::directory_iterator(folder_, error); !error && it != std::filesystem::end(it);
        it.increment(error)) {

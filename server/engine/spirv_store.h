@@ -16,8 +16,9 @@ class SpirvStore {
  public:
   static constexpr std::uintmax_t kMostBytes = std::uintmax_t{256} << 20;
 
-  // Empty: keeps nothing. Of a folder that holds more than `most_bytes` the files that were read or written longest ago
-  // are removed: now, and again each time that a sixteenth of it has been saved.
+  // An empty folder's name means that nothing is kept. If the folder holds more than `most_bytes`, the files that have
+  // not been read or written for longest are removed. This happens on construction, and whenever a further sixteenth of
+  // `most_bytes` has been saved.
   explicit SpirvStore(std::filesystem::path folder, std::uintmax_t most_bytes = kMostBytes);
 
   // Nothing where there is no such file, or where it is cut short, changed, or of another text.

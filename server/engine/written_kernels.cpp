@@ -16,7 +16,7 @@ namespace {
 
 // Structures whose points are counted; of more, those without a kernel are forgotten.
 constexpr std::size_t kMostStructures = 1024;
-// Kernels at most; for one more the least recently used goes.
+// The most kernels that are held; for another one the least recently used is freed.
 constexpr std::uint64_t kMostKernels = 256;
 constexpr int kNiceness = 10;
 

@@ -13,8 +13,8 @@
 
 namespace isofield::gpu {
 
-// One thread at a time. Buffers used must live until wait() has returned, pipelines are kept until then; destroying a
-// submitted one waits.
+// For one thread at a time. Buffers that are used must live until wait() has returned; the commands keep pipelines
+// alive until then. Destroying submitted commands waits for them.
 class Commands {
  public:
   static absl::StatusOr<Commands> begin(Device& device);
@@ -38,7 +38,8 @@ class Commands {
                         std::uint32_t groups) {
     return dispatch(pipeline, bindings, std::as_bytes(std::span(&constants, 1)), groups);
   }
-  // A dispatch of no workgroup, which makes a driver compile the pipeline if it has not. `any` is bound everywhere.
+  // Records a dispatch of no workgroups, which makes the driver compile the pipeline. `any` is bound in place of all
+  // buffers.
   absl::Status dispatch_nothing(const SharedPipeline& pipeline, const Buffer& any);
   // What follows sees what came before.
   void barrier();

@@ -8,10 +8,10 @@
 namespace isofield::rpc {
 namespace {
 
-// A message's tags, lengths, places and a shape of four numbers take at most 94 bytes.
+// Bytes that are set aside for a message's tags, lengths, places and a shape of four numbers; these take at most 94.
 constexpr std::uint64_t kFraming = 128;
 constexpr std::uint64_t kLeastStreamBytes = 64u << 10;
-// Protocol buffers have no larger messages.
+// The size of the largest message that protocol buffers allow.
 constexpr std::uint64_t kMostBytes = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace

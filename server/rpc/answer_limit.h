@@ -1,4 +1,4 @@
-// How large the messages of an answer may be, and how much fits into one: the one place that decides it.
+// Decides how large the messages of an answer may be, and how much fits into one; no other place does.
 #pragma once
 
 #include <absl/status/status.h>
@@ -12,12 +12,12 @@
 
 namespace isofield::rpc {
 
-// Bytes of a message that gRPC's clients take unless they are told otherwise.
+// The largest message, in bytes, that gRPC's clients accept unless they are told otherwise.
 inline constexpr std::uint64_t kDefaultAnswerBytes = 4u << 20;
-// Bytes that the parts of meshes and scenes are cut to. What stands beside them in their messages is far less than the
-// rest of kDefaultAnswerBytes.
+// The most bytes in a part of a mesh or a scene. With everything else in its message, it stays far below
+// kDefaultAnswerBytes.
 inline constexpr std::uint64_t kPartBytes = 1u << 20;
-// Rows of a request or an answer in plain numbers.
+// The most rows that a request or an answer may have as plain numbers.
 inline constexpr std::uint64_t kMaxNumberRows = 4096;
 
 class AnswerLimit {
@@ -25,25 +25,24 @@ class AnswerLimit {
   AnswerLimit() = default;
   // `max_answer_bytes` as requests state it: 0 for gRPC's default.
   explicit AnswerLimit(std::uint64_t max_answer_bytes);
-  // The same of a stream, whose messages must hold some rows each. INVALID_ARGUMENT: below 64 KiB.
+  // The limit of a stream, each of whose messages must have room for some rows. INVALID_ARGUMENT: it is below 64 KiB.
   static absl::StatusOr<AnswerLimit> of_stream(std::uint64_t max_answer_bytes);
 
   std::uint64_t bytes() const { return bytes_; }
-  // How many rows of so many bytes an array may have in a message that holds little else: room for the message's own
-  // tags, lengths and shapes is set aside. At least 1.
+  // The number of rows of `row_bytes` that fit into a message beside its own tags, lengths and shapes; at least 1.
   std::uint64_t rows(std::uint64_t row_bytes) const;
-  // RESOURCE_EXHAUSTED: an answer of at least so many bytes is too large. `instead` says what to do: "ask for fewer
-  // rows".
+  // RESOURCE_EXHAUSTED: an answer of `answer_bytes` or more is too large. `instead` says what the client can do, such
+  // as "ask for fewer rows".
   absl::Status admit(std::uint64_t answer_bytes, absl::string_view instead) const;
 
  private:
   std::uint64_t bytes_ = kDefaultAnswerBytes;
 };
 
-// A list in one message of kDefaultAnswerBytes at most.
+// Counts the bytes of a list that must fit into a message of kDefaultAnswerBytes.
 class AnswerPage {
  public:
-  // Whether an entry of so many bytes has room after those admitted before.
+  // True where an entry of so many bytes has room after those that were admitted before.
   bool admit(std::uint64_t entry_bytes) {
     constexpr std::uint64_t kEntryHead = 6;  // its tag and length
     bytes_ += entry_bytes + kEntryHead;
@@ -51,11 +50,11 @@ class AnswerPage {
   }
 
  private:
-  std::uint64_t bytes_ = 2;  // has_more
+  std::uint64_t bytes_ = 2;  // the field has_more takes two
 };
 
-// Calls write(rows) with an array, rows of `columns` numbers, in parts of at most kPartBytes, none where it is empty.
-// Returns false as soon as write does.
+// Cuts an array of rows of `columns` numbers into parts of whole rows, of at most kPartBytes, and calls write(part) for
+// each of them; an empty array has no part. Returns false as soon as write() does.
 template <class T, class Write>
 bool in_parts(std::span<const T> numbers, std::size_t columns, const Write& write) {
   const std::size_t most = kPartBytes / (columns * sizeof(T)) * columns;
@@ -65,7 +64,7 @@ bool in_parts(std::span<const T> numbers, std::size_t columns, const Write& writ
   return true;
 }
 
-// INVALID_ARGUMENT: plain numbers are asked for, of more rows than are answered so.
+// INVALID_ARGUMENT: the answer is to have plain numbers, and has more than kMaxNumberRows rows.
 absl::Status check_number_rows(bool answer_in_numbers, std::uint64_t rows);
 
 }  // namespace isofield::rpc

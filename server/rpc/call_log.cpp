@@ -31,12 +31,13 @@ double milliseconds(Clock::duration d) {
   return std::chrono::duration<double, std::milli>(d).count();
 }
 
-// Evaluate and EvaluateStream take and give bytes, on whichever thread is free, and note for themselves what they do.
+// True for methods whose requests and answers gRPC reads and writes as messages. Evaluate and EvaluateStream handle
+// bytes, on whichever thread is free, and fill in their notes themselves.
 bool is_of_messages(absl::string_view method) {
   return !absl::EndsWith(method, "/Evaluate") && !absl::EndsWith(method, "/EvaluateStream");
 }
 
-// What a request names: its scene, or what is called "name"; and how much of what it asks for.
+// Notes the scene that a request is about, or else its field "name", and how many points or rays it asks for.
 void note_request(const Message& request, CallNotes& notes) {
   const google::protobuf::Reflection& reflection = *request.GetReflection();
   std::vector<const FieldDescriptor*> fields;
@@ -64,7 +65,7 @@ void note_request(const Message& request, CallNotes& notes) {
   }
 }
 
-// Meshes say at their end how many cells they took.
+// Notes the number of cells from the summary that ends the answer to a mesh request.
 void note_response(const Message& response, CallNotes& notes) {
   const FieldDescriptor* const summary = response.GetDescriptor()->FindFieldByName("summary");
   if (!summary || summary->message_type() != v1::MeshSummary::descriptor()) return;
@@ -87,7 +88,7 @@ void CallNotes::set_subject(const v1::SceneRef& scene) {
 
 void CallNotes::set_subject(std::string name) {
   const std::lock_guard lock(mutex_);
-  // A log has a line for a call, whatever its client sends.
+  // A call has one line in the log, whatever characters its client sends.
   for (char& c : name) c = c > ' ' && c < 0x7f ? c : '?';
   if (name.size() > kLongestName) name.replace(kLongestName, std::string::npos, "...");
   subject_ = std::move(name);
@@ -106,7 +107,8 @@ std::string CallNotes::text() const {
   return text;
 }
 
-// From the call's coming to its end. Of a method of messages all happens on the thread that handles it.
+// Lives from the arrival of a call to its end. If its method is one of messages, everything happens on the thread that
+// handles the call.
 class CallLog::Call final : public grpc::experimental::Interceptor {
  public:
   Call(CallLog& log, grpc::experimental::ServerRpcInfo& info)
@@ -119,9 +121,10 @@ class CallLog::Call final : public grpc::experimental::Interceptor {
       const std::lock_guard lock(log_.mutex_);
       log_.running_.erase(context_);
     }
-    if (start_ == Clock::time_point()) return;  // it never came: the server is shut down
-    log_.sink_(absl::StrFormat("call %d %s%s: queue %.1f ms, kernels %.1f ms, device %.1f ms, transfer %.1f ms, total %.1f ms, %s", id_,
-                               method_.substr(sizeof(kPrefix) - 1), notes_.text(),
+    if (start_ == Clock::time_point()) return;  // no call has come: the server is shutting down
+    log_.sink_(absl::StrFormat("call %d %s%s: queue %.1f ms, kernels %.1f ms, device %.1f ms, transfer %.1f ms, "
+                               "total %.1f ms, %s",
+                               id_, method_.substr(sizeof(kPrefix) - 1), notes_.text(),
                                milliseconds(notes_.times().queued()), milliseconds(notes_.times().compiling()),
                                milliseconds(notes_.times().on_device()), milliseconds(transfer_),
                                milliseconds(Clock::now() - start_), outcome_));

@@ -1,4 +1,4 @@
-// A line of the log for each call: what was asked, how long it waited, and how it ended.
+// Writes a line to the log for each call: what the client asked for, how long the call waited, and how it ended.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -22,13 +22,13 @@ class CallNotes {
  public:
   engine::RequestTimes& times() { return times_; }
 
-  // The scene, or operator, that is asked about.
+  // Sets the scene or the operator that the call is about.
   void set_subject(const v1::SceneRef& scene);
   void set_subject(std::string name);
-  // "points", "rays", "cells" ...; more of the same unit are added.
+  // Adds to the work of a unit, which is "points", "rays" or "cells".
   void add_work(const char* unit, std::uint64_t count);
 
-  // " scene=ball points=64", as far as it is known.
+  // What is known, in the form " scene=ball points=64".
   std::string text() const;
 
  private:
@@ -38,24 +38,25 @@ class CallNotes {
   std::map<std::string, std::uint64_t> work_;
 };
 
-// Thread-safe. Off, it costs nothing: gRPC is given no interceptor.
+// Thread-safe. It costs nothing when it is off, since gRPC gets no interceptor then.
 class CallLog {
  public:
   using Sink = std::function<void(const std::string& line)>;
 
-  // No sink: off.
+  // The log is off without a sink.
   explicit CallLog(Sink sink = {}) : sink_(std::move(sink)) {}
   bool is_on() const { return static_cast<bool>(sink_); }
 
-  // Of a running call; null where the log is off.
+  // The notes of a running call; null where the log is off.
   CallNotes* notes_of(const grpc::ServerContextBase& context) const;
 
-  // For grpc::ServerBuilder; must not outlive this. Writes
-  //   call 17 MeshService/Mesh scene=neuron cells=263680: queue 0.1 ms, kernels 0.0 ms, device 95.3 ms, transfer 12.0 ms,
-  //   total 120.5 ms, OK
-  // as one line when a call of isofield's services is over. `queue` is what its work waited for its turn at the device,
-  // `kernels` what it waited for the driver to compile, `device` what the device took, and `transfer` what answers took
-  // until the transport had them.
+  // Interceptors for grpc::ServerBuilder, which must not outlive this. When a call of isofield's services is over, they
+  // write as one line
+  //   call 17 MeshService/Mesh scene=neuron cells=263680: queue 0.1 ms, kernels 0.0 ms, device 95.3 ms,
+  //   transfer 12.0 ms, total 120.5 ms, OK
+  // `queue` is how long the work waited for its turn at the device, `kernels` how long it waited for the driver to
+  // compile, `device` how long the device worked for it, and `transfer` how long it took to hand the answers to the
+  // transport.
   std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> interceptors();
 
  private:

@@ -40,7 +40,7 @@ class EvaluateStreams::Stream {
     v1::EvaluateStreamRequest request;
     MessagePoints points;
     std::optional<ResultMessage> result;  // none: into shared memory
-    std::deque<grpc::ByteBuffer> answers;  // of the result, once the first is written: those not written yet
+    std::deque<grpc::ByteBuffer> answers;  // the result's unwritten messages; empty until the first one is due
     bool is_done = false;
     absl::Status status;
   };

@@ -17,7 +17,8 @@
 namespace isofield::rpc {
 namespace {
 
-// Points of one message of a grid's answer, 1 to 4 MiB, where the client takes that; more where layers are large.
+// Points that are evaluated at once for a grid, whose results are 1 to 4 MiB; more where layers are larger than that. A
+// message holds as many where the client takes it.
 constexpr std::uint64_t kGridSlab = 1u << 18;
 
 absl::Status client_gone() {

@@ -23,7 +23,7 @@ class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
                const CallLog& log)
       : scenes_(scenes), engine_(engine), limits_(limits), regions_(regions), log_(log) {}
 
-  // Takes the status, and the bytes of an EvaluateResponse where that is OK.
+  // Takes the status and, if it is OK, the bytes of an EvaluateResponse.
   using Answer = std::function<void(const grpc::Status&, const grpc::ByteBuffer& response)>;
   // Reads `incoming` into `request`. Calls `done` once, on this thread or another; all arguments must live until then.
   void evaluate(grpc::ServerContext& context, grpc::ByteBuffer& incoming, v1::EvaluateRequest& request, Answer done);
@@ -42,7 +42,7 @@ class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
   struct Evaluation;
   absl::StatusOr<std::shared_ptr<Evaluation>> read(const grpc::ServerContext& context, grpc::ByteBuffer& incoming,
                                                    v1::EvaluateRequest& request) const;
-  // A batch that lacks its points, and is noted in the log.
+  // Makes a batch that lacks its points, and notes the request's scene for the log.
   template <class Request>
   absl::StatusOr<engine::PointBatch> batch_of(const grpc::ServerContext& context, const Request& request) const;
 

@@ -1,4 +1,4 @@
-// How layers of a grid are cut into messages.
+// Cuts layers of a grid into messages.
 #pragma once
 
 #include <array>
@@ -7,14 +7,14 @@
 
 namespace isofield::rpc {
 
-// Points of a grid, along x, y and z.
+// A box of points of a grid: its first point and the number of points, along x, y and z.
 struct GridPart {
   std::array<std::uint64_t, 3> first, counts;
 };
 
-// Parts of at most `most` points each, which is at least 1, of a grid of `counts` points: whole layers (of one z) where
-// a part holds any, else rows of a layer, else points of a row. They follow one another in the grid's order, x fastest,
-// without a gap.
+// Cuts a grid of `counts` points into parts of at most `most` points, which is at least 1. A part has whole layers (of
+// one z) where it can hold one, else whole rows of a layer, else points of a row. The parts follow one another without
+// a gap in the grid's order, x fastest.
 std::vector<GridPart> grid_parts(const std::array<std::uint64_t, 3>& counts, std::uint64_t most);
 
 }  // namespace isofield::rpc

@@ -1,4 +1,4 @@
-// Tells the client of a mesh request how far its work is.
+// Tells the client of a mesh request how much of the work is done.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -11,13 +11,13 @@
 
 namespace isofield::rpc {
 
-// One request, one thread. `Response` has a MeshProgress.
+// For one request and one thread. `Response` is a message that has a MeshProgress.
 template <class Response>
 class MeshProgressWriter {
  public:
   explicit MeshProgressWriter(grpc::ServerWriter<Response>& writer) : writer_(writer) {}
 
-  // Sends the fraction where the last message is old, or spoke of another stage.
+  // Sends the fraction if the last message is at least kEvery old or was about another stage.
   void at(double fraction) {
     fraction_ = fraction;
     const Clock::time_point now = Clock::now();

@@ -22,7 +22,7 @@ class MeshService final : public v1::MeshService::Service {
   grpc::Status Measure(grpc::ServerContext*, const v1::MeshRequest*, v1::MeasureResponse*) override;
 
  private:
-  // TrackMesh, which takes its requests as bytes: of messages gRPC would not tell an unreadable one from the end.
+  // Serves TrackMesh. Its requests are read as bytes, since gRPC would take an unreadable message for the stream's end.
   grpc::Status track_mesh(grpc::ServerContext& context, TrackMeshStream& stream);
 
   const SceneSource& scenes_;

@@ -15,7 +15,7 @@
 namespace isofield::rpc {
 namespace {
 
-// Bytes of a description in a summary.
+// The most bytes of a description in a summary.
 constexpr std::size_t kMostDescription = 1024;
 
 void fill_summary(const std::string& name, std::uint64_t version, const v1::Operator& message,
@@ -32,7 +32,7 @@ void fill_summary(const std::string& name, std::uint64_t version, const v1::Oper
 
 constexpr char kFewerRows[] = "ask for fewer rows";
 
-// Before the evaluation.
+// Checks the size of the answer before the evaluation.
 absl::Status check_answer(const v1::EvaluateOperatorRequest& request, std::uint64_t rows, std::uint64_t columns) {
   ISOFIELD_RETURN_IF_ERROR(check_number_rows(request.answer_in_numbers(), rows));
   return AnswerLimit(request.max_answer_bytes()).admit(rows * columns * sizeof(float), kFewerRows);
@@ -68,7 +68,7 @@ grpc::Status OperatorService::GetOperator(grpc::ServerContext*, const v1::GetOpe
   }
   const absl::StatusOr<catalog::OperatorEntry> entry = operators_.get(request->name());
   if (!entry.ok()) return to_grpc(entry.status());
-  // Before the operator is copied, and then with the summary.
+  // The size is checked before the operator is copied, and again with the summary.
   const AnswerLimit limit(request->max_answer_bytes());
   const char* const instead = "receive larger messages";
   if (absl::Status s = limit.admit(entry->message->ByteSizeLong(), instead); !s.ok()) return to_grpc(s);

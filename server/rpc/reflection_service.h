@@ -1,4 +1,4 @@
-// grpc.reflection.v1.ServerReflection, and the description of grpc.health.v1.Health.
+// Serves grpc.reflection.v1.ServerReflection, and links the description of grpc.health.v1.Health.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -10,11 +10,12 @@
 
 namespace isofield::rpc {
 
-// Answers from the descriptions that are linked into the program. libgrpc++_reflection 1.51 serves v1alpha, which new
-// tools ask second or not at all.
+// Answers from the descriptions that are linked into the program. libgrpc++_reflection 1.51 only serves v1alpha, which
+// tools try after v1 or not at all.
 class ReflectionService final : public grpc::reflection::v1::ServerReflection::Service {
  public:
-  // `services`: full names. The services that libgrpc++ adds by itself, health and v1alpha, are listed too.
+  // `services` has the full names of the services to list. Health and v1alpha, which libgrpc++ adds by itself, are
+  // listed too.
   explicit ReflectionService(std::vector<std::string> services);
 
   grpc::Status ServerReflectionInfo(

@@ -26,7 +26,7 @@ std::string field_head(int number, std::uint64_t bytes) {
   return {head.data(), end};
 }
 
-// What stands before the numbers in a message.
+// The bytes before the numbers in a message.
 std::string message_head(std::uint64_t rows, std::uint64_t columns, bool in_numbers) {
   const std::uint64_t bytes = rows * columns * (in_numbers ? sizeof(double) : sizeof(float));
   v1::Tensor tensor;

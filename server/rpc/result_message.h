@@ -1,4 +1,4 @@
-// EvaluateResponses in the bytes that travel.
+// EvaluateResponses in their encoded form, made without a copy of the numbers.
 #pragma once
 
 #include <grpcpp/support/byte_buffer.h>
@@ -17,13 +17,13 @@ class ResultMessage {
   // `result` of shape [rows, columns], undefined as yet.
   ResultMessage(std::uint64_t rows, std::uint64_t columns);
 
-  // Bytes of the message of all rows.
+  // The size in bytes of the message with all rows.
   static std::uint64_t bytes(std::uint64_t rows, std::uint64_t columns, bool in_numbers);
 
   std::span<float> numbers() { return {numbers_.get(), rows_ * columns_}; }
-  // The message of all rows, which takes the numbers with it.
+  // The message with all rows. It takes over the numbers, so that it can be asked for only once.
   grpc::ByteBuffer take(bool in_numbers);
-  // The same in several messages of at most so many rows each, in order; in one where there are no rows.
+  // The same as several messages of at most so many rows each, in order; without any rows it is one message.
   std::deque<grpc::ByteBuffer> take_parts(std::uint64_t most_rows);
 
  private:

@@ -23,7 +23,7 @@ struct StoredScene {
 // Thread-safe.
 class SceneEditor {
  public:
-  // `ahead` is told of scenes that are edited or replaced; null: nobody is.
+  // `ahead` is told of scenes that are edited or replaced; it may be null.
   SceneEditor(catalog::Catalog& catalog, engine::Engine& engine, engine::CompileAhead* ahead)
       : catalog_(catalog), engine_(engine), ahead_(ahead) {}
 

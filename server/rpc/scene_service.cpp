@@ -49,7 +49,7 @@ grpc::Status SceneService::GetScene(grpc::ServerContext*, const v1::GetSceneRequ
   const absl::StatusOr<catalog::Entry> entry = catalog_.get(request->name());
   if (!entry.ok()) return to_grpc(entry.status());
   const AnswerLimit limit(request->max_answer_bytes());
-  // Before the scene is copied, and then with the summary.
+  // The size is checked before the scene is copied, and again with the summary.
   const char* const instead = "ask GetSceneParts, which answers scenes of any size";
   if (absl::Status s = limit.admit(entry->scene->ByteSizeLong(), instead); !s.ok()) return to_grpc(s);
   *response->mutable_scene() = *entry->scene;

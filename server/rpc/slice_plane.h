@@ -1,4 +1,4 @@
-// The samples that a SliceRequest asks for, with what it leaves out chosen after the scene.
+// Reads the samples that a SliceRequest asks for. Fields that it leaves out are chosen to suit the scene.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -11,8 +11,8 @@
 
 namespace isofield::rpc {
 
-// INVALID_ARGUMENT: a field is out of its range, or is left out though the scene's field is not bounded.
-// RESOURCE_EXHAUSTED: more than `max_points` samples.
+// INVALID_ARGUMENT: a field of the request is out of its range, or one is left out although the scene's field is not
+// bounded. RESOURCE_EXHAUSTED: there are more than `max_points` samples.
 absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const blobtree::Tape& tape,
                                          std::uint64_t max_points);
 

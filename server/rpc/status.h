@@ -6,7 +6,8 @@
 
 namespace isofield::rpc {
 
-// Bytes of a status's message. gRPC's clients take 8 KiB of headers in all, in which a byte may take three.
+// The most bytes of a status's message. gRPC's clients accept 8 KiB of headers in all, and gRPC may encode a byte as
+// three.
 inline constexpr std::size_t kMaxStatusBytes = 2048;
 
 // The codes are the same numbers by design. The message is cut at kMaxStatusBytes, and control characters in it are

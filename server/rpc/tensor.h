@@ -23,8 +23,8 @@ class RowArray {
     const char* rows;      // "points"
     const char* too_many;  // what to do instead of sending more than are admitted
   };
-  // From bytes, or from plain numbers. INVALID_ARGUMENT: dtype, shape or size. RESOURCE_EXHAUSTED: more than max_rows.
-  // `tensor` must outlive the result.
+  // Reads an array from bytes or from plain numbers. INVALID_ARGUMENT: its dtype, shape or size is wrong.
+  // RESOURCE_EXHAUSTED: it has more than max_rows. `tensor` must outlive the result.
   static absl::StatusOr<RowArray> read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
                                        const Words& words);
 
@@ -75,7 +75,7 @@ class PointArray {
 // Makes a FLOAT32 tensor of this shape and returns its content, to be written by the caller.
 std::span<float> make_float_tensor(std::initializer_list<std::uint64_t> shape, v1::Tensor& tensor);
 
-// Turns a tensor's bytes into plain numbers, which say the same.
+// Turns a tensor's bytes into plain numbers of the same values.
 void write_as_numbers(v1::Tensor& tensor);
 
 // Makes a tensor of rows of so many numbers.

@@ -12,17 +12,17 @@ namespace {
 using grpc::experimental::InterceptionHookPoints;
 using grpc::experimental::ServerRpcInfo;
 
-// Takes its requests as bytes, and so reads them itself; an interceptor would cost it time.
+// This method reads its requests itself, from bytes; an interceptor would only cost it time.
 constexpr absl::string_view kEvaluate = "/isofield.v1.FieldService/Evaluate";
 
-// The type that a method, "/package.Service/Method", takes.
+// The full name of the request of a method, "/package.Service/Method".
 std::string request_type(const char* method) {
   const std::string name = absl::StrReplaceAll(absl::string_view(method).substr(1), {{"/", "."}});
   const auto* descriptor = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(name);
   return descriptor ? descriptor->input_type()->full_name() : absl::StrCat("the request of ", method);
 }
 
-// One call's. It is at work when the request has been read, and again before the status is sent.
+// The check of one call. It works when the request has been read, and again before the status is sent.
 class RequestCheck final : public grpc::experimental::Interceptor {
  public:
   explicit RequestCheck(const char* method) : method_(method) {}
@@ -45,7 +45,7 @@ class RequestCheck final : public grpc::experimental::Interceptor {
 class RequestChecks final : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
   grpc::experimental::Interceptor* CreateServerInterceptor(ServerRpcInfo* info) override {
-    // Of a stream of requests gRPC does not tell an unreadable one from the end of the stream.
+    // In a stream of requests, gRPC does not distinguish an unreadable one from the end of the stream.
     const bool has_one_request =
         info->type() == ServerRpcInfo::Type::UNARY || info->type() == ServerRpcInfo::Type::SERVER_STREAMING;
     return has_one_request && info->method() != kEvaluate ? new RequestCheck(info->method()) : nullptr;

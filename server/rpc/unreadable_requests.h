@@ -1,5 +1,5 @@
-// Requests whose bytes are no message of the type that their method takes: INVALID_ARGUMENT, with a word on why. gRPC
-// by itself answers INTERNAL without one.
+// Answers INVALID_ARGUMENT with an explanation to requests whose bytes are no message of their method's type. gRPC by
+// itself would answer INTERNAL without an explanation.
 #pragma once
 
 #include <absl/status/status.h>
@@ -12,17 +12,18 @@
 
 namespace isofield::rpc {
 
-// `type`: the full name of the message that was expected.
+// The error for such a request. `type` is the full name of the message that the method expects.
 absl::Status unreadable(const std::string& type);
 
-// For methods that take their requests as bytes. Empties `bytes`.
+// Parses the request of a method that takes its requests as bytes. Empties `bytes`.
 template <class Message>
 absl::Status parse_request(grpc::ByteBuffer& bytes, Message& message) {
   if (grpc::SerializationTraits<Message>::Deserialize(&bytes, &message).ok()) return absl::OkStatus();
   return unreadable(Message::descriptor()->full_name());
 }
 
-// For methods whose one request gRPC reads: turns its answer to an unreadable one into that of unreadable().
+// Interceptors for methods whose single request gRPC reads. They replace its answer to an unreadable request by that of
+// unreadable().
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> refuse_unreadable_requests();
 
 }  // namespace isofield::rpc

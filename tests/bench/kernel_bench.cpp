@@ -1,5 +1,6 @@
-// What it costs to mesh the first scene of a mix of kinds: compiled from nothing, and with what an earlier process, or
-// CompileAhead, has left behind. Each iteration is a process's first: an engine of its own.
+// The time to mesh the first scene of a mix of kinds, with kernels compiled from nothing, and with those that an
+// earlier process or CompileAhead has left behind. Each iteration has an engine of its own, like a process that has
+// just begun.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -27,7 +28,7 @@ v1::Scene blend_with_box() {
     {"gradient": {"children": ["a", "b", "c"], "opening": {"preset": "CAMEL"}}})");
 }
 
-// Where the driver, too, keeps what it compiles: read when a device is made.
+// The folder in which the driver keeps what it compiles. It reads the variable when a device is created.
 class Folder {
  public:
   Folder() : path_(std::filesystem::temp_directory_path() / "isofield_kernel_bench") {

@@ -93,7 +93,7 @@ TEST_F(CliTest, RaysThatAreFedBackMeanTheirHits) {
   EXPECT_TRUE(absl::StrContains(out_, "\"points\":3") && absl::StrContains(out_, "hits.npy: 1 row is left out"))
       << out_;
   expect_hits(*read_file(path("v.csv")));
-  // Values have no places; points of other columns would be an accident.
+  // Values have no columns of points, so they are refused instead of read from other columns.
   EXPECT_EQ(run("eval " + ball + " --points -", "u,v,value\n0,0,0.5\n"), 4);
   EXPECT_TRUE(absl::StrContains(err_, "<stdin>:1: the columns are u, v, value; expected x, y and z")) << err_;
   EXPECT_EQ(run("ray " + ball + " --origins - --directions -", "1 2 3\n"), 2);

@@ -26,7 +26,7 @@ void fill(const void* data, std::size_t bytes, v1::Tensor::DType type, std::init
   tensor.set_data(data, bytes);
 }
 
-// Of a catalog what comes after a name, a page of it.
+// Fills a page with the entries of a catalog that come after a name.
 template <class Response, class Map, class Add>
 void list(const Map& catalog, const std::string& after, std::size_t most, Response& response, const Add& add) {
   for (auto it = catalog.upper_bound(after); it != catalog.end(); ++it) {

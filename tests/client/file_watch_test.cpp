@@ -12,8 +12,8 @@
 namespace isofield {
 namespace {
 
-// A watch on "scene" in a directory of its own, and what is done to the file. wait() returns where a change has come
-// before it, so no thread is needed: a test that fails hangs, and ends by its time limit.
+// A watch on the file "scene" in a directory of its own, and functions that change the file. wait() returns at once
+// where a change comes before it, so no thread is needed. A test that fails hangs until its time limit.
 class FileWatchTest : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return directory_.path(name); }
@@ -57,7 +57,7 @@ TEST_F(FileWatchTest, FollowsLinks) {
   std::filesystem::create_symlink("elsewhere/other", path("scene"));
   EXPECT_TRUE(watch_->wait().ok()) << "it leads elsewhere";
   auto waited = std::async(std::launch::async, [&] { return watch_->wait(); });
-  // Once it waits, or just before: either way the change counts.
+  // The change counts whether it comes while wait() blocks or just before.
   write_file(path("elsewhere/other"), "2");
   EXPECT_TRUE(waited.get().ok());
 }

@@ -101,7 +101,7 @@ TEST(MoleculeAnswers, EachFileHasItsAnswer) {
   }
 }
 
-// What happens to a byte of each file in turn must not end the process, whatever it imports.
+// A changed byte in any file must not end the process, whatever the import yields.
 TEST(MoleculeAnswers, ChangedBytesAreAnErrorOrAScene) {
   std::uint32_t random = 1;
   for (const Answer& answer : read_answers()) {
@@ -139,7 +139,7 @@ TEST(MoleculeAnswers, OperatorExpressions) {
 TEST(Gzip, BoundsAndDamage) {
   const TemporaryDirectory directory;
   const auto packed = [] {
-    // Written as it stands, so that it is not unpacked here.
+    // The bytes are written as they are, so that the client unpacks them.
     FILE* const file = std::fopen((kFolder + "packed.pdb.gz").c_str(), "rb");
     std::string data(4096, '\0');
     data.resize(std::fread(data.data(), 1, data.size(), file));
@@ -155,7 +155,7 @@ TEST(Gzip, BoundsAndDamage) {
   EXPECT_EQ(*gunzip(packed + std::string(512, '\0')), *whole);
   EXPECT_FALSE(gunzip(packed + "more").ok());
   EXPECT_FALSE(gunzip(packed.substr(0, packed.size() - 1)).ok());
-  // By its content, whatever its name is; and scenes too.
+  // A packed file is known by its content, whatever its name is, and so is a packed scene.
   EXPECT_EQ(*read_file(write_file(directory.path("plain"), packed)), *whole);
 }
 

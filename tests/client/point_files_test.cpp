@@ -1,4 +1,4 @@
-// The odd files of tests/data/points, against the answers beside them.
+// Compares the odd files of tests/data/points with the answers beside them.
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_split.h>
@@ -19,7 +19,7 @@ struct Answer {
   std::string file;
   std::vector<float> points;
   std::string note;
-  // Of a file that is refused.
+  // A part of the error; empty where the file is read.
   std::string message;
 };
 

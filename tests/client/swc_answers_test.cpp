@@ -1,4 +1,4 @@
-// The files of tests/data/swc, one for each thing that a neuron's file may do, against answers.json beside them.
+// Compares the files of tests/data/swc, one for each peculiarity of neurons' files, with answers.json beside them.
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
@@ -26,7 +26,7 @@ const std::filesystem::path kFolder = std::filesystem::path(ISOFIELD_SOURCE_DIR)
 
 std::string words(const Numbers& numbers) {
   return absl::StrJoin(numbers, " ", [](std::string* out, double number) {
-    // Rounding leaves zeros of either sign.
+    // Rounding may leave a negative zero.
     absl::StrAppendFormat(out, "%.4g", std::abs(number) < 1e-12 ? 0.0 : number);
   });
 }
@@ -35,7 +35,7 @@ std::string words(double number) {
   return absl::StrFormat("%.4g", number);
 }
 
-// Such as "n2 segment (0 0 0) 2 to (9 0 0) 1"; of a placed shape the place is the translation alone.
+// Describes a piece, such as "n2 segment (0 0 0) 2 to (9 0 0) 1". The place of a transformed shape is its translation.
 std::string describe(const v1::Scene& scene, const v1::Node& node) {
   std::string text = node.name();
   if (node.has_transform()) {

@@ -105,7 +105,7 @@ TEST(SwcImport, MendsRadiiFromTheParentOrTheOption) {
   const auto [scene, report] = import_swc_text(text);
   EXPECT_EQ(count_of(report, "nearest descendant"), 1u);
   EXPECT_EQ(count_of(report, "gets its parent's"), 2u);
-  // Never the least radius of the file, 0.1.
+  // The radius is never the least one of the file, 0.1.
   EXPECT_EQ(scene.nodes(0).segment().radius_a(), 2);
   EXPECT_EQ(scene.nodes(0).segment().radius_b(), 2);
   EXPECT_EQ(scene.nodes(2).segment().radius_b(), 2);
@@ -138,7 +138,7 @@ TEST(SwcImport, ProcessesOfAContourMeetItsSurface) {
 }
 
 TEST(SwcImport, EveryLengthIsOneThatTheServerTakes) {
-  // Ends of the range of coordinates and radii; segments may not be longer than 1e9.
+  // These are the ends of the range of coordinates and radii. Segments may not be longer than 1e9.
   const auto [scene, report] = import_swc_text(
       "1 3 -2.5e8 -2.5e8 -2.5e8 1e-9 -1\n2 3 2.5e8 2.5e8 2.5e8 2.5e8 1\n3 3 2.6e8 0 0 1 2\n4 3 0 0 0 1e-10 2\n",
       {.range_factor = 1e-5});

@@ -1,4 +1,4 @@
-// `isofield watch` as a process, against a server inside the test.
+// Runs `isofield watch` as a process against a server inside the test.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -28,7 +28,7 @@ class WatchTest : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  // What the next picture is told apart by.
+  // A mark by which the next picture is told from this one.
   void mark(const std::string& unit) { server_.mesh_unit = unit; }
   static std::string marked(const std::string& unit) { return "\"unit\":\"" + unit + "\""; }
   std::set<std::string> files() const {

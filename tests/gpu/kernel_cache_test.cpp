@@ -1,4 +1,4 @@
-// Kernels come and go: specialised before the driver sees them, kept by use, compiled ahead of edits.
+// Kernels are specialised before the driver sees them, kept while they are used, and compiled ahead of edits.
 #include "engine/kernel_cache.h"
 
 #include <gtest/gtest.h>
@@ -120,12 +120,12 @@ TEST(CompileAhead, MakesTheKernelsOfTheNextEdit) {
   const auto no_operators = std::make_shared<const blobtree::OperatorTable>();
   ahead.edited(scene, no_operators, resident(*scene));
   ahead.wait();
-  EXPECT_EQ(ahead.mixes(), 3u);  // one more blend is the mix that it is
-  // The same mix again is no work.
+  EXPECT_EQ(ahead.mixes(), 3u);  // another blend does not change the mix
+  // The same mix of kinds makes no further work.
   ahead.edited(scene, no_operators, resident(*scene));
   ahead.wait();
   EXPECT_EQ(ahead.mixes(), 3u);
-  // What a modeler adds then is specialised already.
+  // The kernels for what a modeller adds next are specialised already.
   const std::uint64_t made = specialised->made();
   EXPECT_GT(made, 0u);
   const KernelKind boxed = kind_of(kSpheres + R"({"name": "c", "box": {"half_size": [1, 1, 1], "range": 0.5}},

@@ -38,7 +38,7 @@ std::vector<std::string> daemon_command(const std::vector<std::string>& flags) {
 }
 
 std::vector<std::string> Daemon::command(const std::vector<std::string>& flags, const std::string& listen) {
-  // Where that is no test's matter, kernels are compiled when they are asked for: it is processor time that tests share.
+  // Kernels are compiled only on demand unless a test is about that, since the tests share the processor.
   std::vector<std::string> all = daemon_command({"--listen", listen, "--compile-ahead=false"});
   if (with_validation()) all.push_back("--validation");
   all.insert(all.end(), flags.begin(), flags.end());

@@ -1,4 +1,4 @@
-"""Asks a daemon with grpcurl, which knows what reflection tells it and no more: health, services, fields, scenes, errors.
+"""Asks a daemon for health, services, fields, scenes and errors with grpcurl, which knows only what reflection tells.
 
 Usage: grpcurl_test.py ISOFIELDD FOLDER
 Where grpcurl is not installed, it is built in FOLDER by go; without go, or where its modules are out of reach, the test
@@ -17,7 +17,7 @@ import sys
 from served import start_daemon, stop_daemon
 
 SKIPPED = 77
-# The newest, then one that an older go can build.
+# Versions to try: the newest, then one that an older go can build.
 VERSIONS = ("latest", "v1.8.9")
 
 BALL = {"inline": {"nodes": [{"sphere": {"radius": 1, "range": 1}}]}}
@@ -73,7 +73,7 @@ class Grpcurl:
         return run.stdout
 
     def call(self, method, data=None):
-        """The answers, of a stream all of them."""
+        """The answers; a stream may have several."""
         run = self.run(method, data=data)
         assert run.returncode == 0, f"{method}: {run.stderr}"
         answers, text = [], run.stdout.strip()

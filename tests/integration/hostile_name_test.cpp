@@ -1,4 +1,5 @@
-// Names that nobody would choose: errors repeat them cut and escaped, so that every status reaches its client.
+// Clients may send names that nobody would choose. Errors repeat them cut and escaped, so that every status reaches its
+// client.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ const std::string kEscaped = "'one\\ntwo\\x1b[31m\\r'";
 
 class HostileName : public testing::Test {
  protected:
-  // The requests of a name that is none, by what they are; `name` is what the status shows of it.
+  // Sends every request that has a name, with one that does not exist. `name` is the form in which the status shows it.
   void expect_shown(const grpc::Status& status, StatusCode code, const std::string& shown) {
     expect_refused(status, code, {shown});
     EXPECT_LE(status.error_message().size(), 2051u);
@@ -55,7 +56,7 @@ class HostileName : public testing::Test {
     v1::PickOpeningResponse picked;
     expect_shown(peer.operators().PickOpening(context(), pick, &picked), StatusCode::INVALID_ARGUMENT, shown);
 
-    // Within a scene: a root, a child, a custom operator, a node's name, the unit.
+    // Names within a scene are those of a root, a child, a custom operator, a node and the unit.
     const auto refused = [&](const v1::Scene& scene) {
       expect_shown(peer.evaluate(inlined(scene), origin, false, nullptr), StatusCode::INVALID_ARGUMENT, shown);
     };

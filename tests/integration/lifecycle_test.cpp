@@ -92,7 +92,7 @@ TEST(Lifecycle, SigtermLetsARunningMeshFinish) {
   daemon.expect_orderly_end();
 }
 
-// What watches the server learns at once that it is going, while running requests finish.
+// Programs that watch the server's health learn at once that it is stopping, while running requests finish.
 TEST(Lifecycle, HealthIsNotServingDuringTheDrain) {
   Daemon daemon({"--drain-seconds", "300"});
   Peer peer(daemon.address());
@@ -199,7 +199,7 @@ TEST(Lifecycle, WrongUsageIsTold) {
   }
 }
 
-// Refused with exit code 2 before anything is started, in words that name the place.
+// The daemon refuses these with exit code 2 before anything is started, in words that name the place.
 void expect_wrong(const std::vector<std::string>& flags, const std::vector<std::string>& parts) {
   const Outcome outcome = run(daemon_command(flags));
   EXPECT_EQ(outcome.exit_code, 2) << parts[0];

@@ -147,7 +147,8 @@ TEST_F(MeshBricks, PartsThatAreNoneAreRefused) {
 TEST_F(MeshBricks, ProgressCanCancelThem) {
   v1::MeshBricksRequest request;
   *request.mutable_mesh() = mesh_request(inlined(Ball().scene()), 0.0022);
-  EXPECT_EQ(client_.mesh_bricks(request, [](const v1::MeshProgress&) { return false; }).status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(client_.mesh_bricks(request, [](const v1::MeshProgress&) { return false; }).status().code(),
+            absl::StatusCode::kCancelled);
 }
 
 TEST_F(MeshBricks, ATrackedMeshFollowsEdits) {

@@ -29,7 +29,7 @@ class MessageSize : public testing::Test {
     for (const std::uint64_t n : counts) request.add_spacing(3.5 / static_cast<double>(n));
     return request;
   }
-  // The answer to one message of a stream, joined; the largest message.
+  // The joined answer to one message of a stream, and the size of the largest message in it.
   std::vector<float> streamed(Peer& peer, const v1::EvaluateStreamRequest& request, std::uint64_t* largest,
                               std::size_t* messages) {
     std::vector<v1::EvaluateResponse> responses;
@@ -101,7 +101,7 @@ TEST_F(MessageSize, LargeChunksAreAnsweredInParts) {
   EXPECT_EQ(messages, 1u);
 }
 
-// A chunk in parts is one answer to those that count points: an error after it says how many were answered.
+// A chunk that is answered in parts counts as a whole: an error after it states how many points have been answered.
 TEST_F(MessageSize, AnErrorComesAfterAllPartsOfTheChunkBefore) {
   const std::vector<float> xyz = points_around(Ball(), 1, 300'000);
   std::vector<float> bad(3, 0.0f);
@@ -134,7 +134,7 @@ TEST_F(MessageSize, StreamsRefuseMessagesTooSmallForRows) {
                  {"max_answer_bytes", "first message"});
 }
 
-// The largest batch that a client without options receives, and one point more.
+// Asks for the largest batch that a client without options receives, and for one more point.
 TEST_F(MessageSize, EvaluateRefusesWhatTheClientWouldNotTake) {
   v1::EvaluateRequest request;
   *request.mutable_scene() = inlined(Ball().scene());
@@ -287,7 +287,7 @@ TEST_F(MessageSize, LongListsOfOperatorsComeInPages) {
   Peer peer(daemon.address(), Peer::Messages::kByDefault);
   v1::PutOperatorRequest put;
   put.mutable_operator_()->mutable_sum();
-  // Its 1,024 bytes would end within a character.
+  // The 1,024th byte of this description is within a character.
   put.mutable_operator_()->set_description(std::string(1023, 'd') + "\xc3\xbc" + std::string(5000, 'd'));
   const auto name = [](int i) { return absl::StrCat("operator-", absl::Dec(i, absl::kZeroPad4)); };
   for (int i = 0; i < 4500; ++i) {

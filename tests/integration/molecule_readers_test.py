@@ -17,12 +17,12 @@ import tempfile
 
 SKIPPED = 77
 
-# Van der Waals radii of the elements in the files; without one: 2.0.
+# Van der Waals radii of the elements in the files; others have 2.0.
 RADII = {"H": 1.2, "D": 1.2, "C": 1.7, "N": 1.55, "O": 1.52, "F": 1.47, "Na": 2.27, "P": 1.8, "S": 1.8, "Cl": 1.75,
          "Ca": 2.31, "Zn": 1.39, "Se": 1.9, "Br": 1.85}
 NO_RADIUS = 2.0
 
-# Takes a list of [reader, path, frame, assembly]; prints of each the atoms: [element, x, y, z].
+# A program that takes a list of [reader, path, frame, assembly] and prints the atoms of each: [element, x, y, z].
 READ_ATOMS = """
 import json, sys
 import ase.io, gemmi
@@ -98,8 +98,8 @@ def main():
             (whole, [], "gemmi", whole, 1, ""),
             (changed(whole, "cut_77", lambda l: l[:76], folder), [], "gemmi", whole, 1, ""),
             (changed(whole, "cut_67", lambda l: l[:66], folder), [], "gemmi", whole, 1, ""),
-            (changed(whole, "left", lambda l: l[:12] + l[12:16].strip().ljust(4) + l[16:66], folder), [], "gemmi", whole,
-             1, ""),
+            (changed(whole, "left", lambda l: l[:12] + l[12:16].strip().ljust(4) + l[16:66], folder), [], "gemmi",
+             whole, 1, ""),
             (changed(whole, "shifted", lambda l: l[:6] + "1" + l[6:11].replace(" ", "0") + l[11:], folder), [], "gemmi",
              whole, 1, ""),
             (data / "1A8O.pdb", [], "gemmi", data / "1A8O.pdb", 1, ""),
@@ -127,7 +127,8 @@ def main():
             expected = collections.Counter(key(RADII.get(element, NO_RADIUS), place) for element, *place in atoms)
             found = imported(isofield, path, ["--waters", *options], folder)
             elements = collections.Counter(element for element, *_ in atoms)
-            print(f"{path.name:32} {' '.join(options):16} {reader:6} {read.name:24} {found.total():6}  {dict(elements)}")
+            print(f"{path.name:32} {' '.join(options):16} {reader:6} {read.name:24} {found.total():6}  "
+                  f"{dict(elements)}")
             if found != expected or not atoms:
                 failures.append(f"{path.name}: {found.total()} atoms, {reader} reads {len(atoms)}; only here: "
                                 f"{list((found - expected))[:3]}; only there: {list((expected - found))[:3]}")

@@ -33,7 +33,7 @@ struct ReceivedMesh {
 // Connected to one daemon, over a connection of its own. Every method is one request; any number of threads.
 class Peer {
  public:
-  // What the channel receives: kOfAnySize, or what gRPC's clients do that set no option, up to 4 MiB.
+  // The largest message that the channel receives: kOfAnySize, or gRPC's default of 4 MiB.
   enum class Messages { kOfAnySize, kByDefault };
   explicit Peer(const std::string& address, Messages messages = Messages::kOfAnySize);
 

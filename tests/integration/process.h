@@ -29,7 +29,7 @@ class Process {
   // Blocks until it has written a line that holds `text` to standard error, and returns the line; "" when it has closed
   // the stream without one.
   std::string wait_for_error_line(const std::string& text) { return wait_for_line(errors_, text); }
-  // The same of standard output.
+  // The same for standard output.
   std::string wait_for_output_line(const std::string& text) { return wait_for_line(output_, text); }
   // All that it has written so far.
   std::string output() const;

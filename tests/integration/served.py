@@ -1,4 +1,4 @@
-"""A daemon for the Python tests, and modules made from the .proto files alone, as a user of another language makes them."""
+"""Starts a daemon for the Python tests, and makes modules from the .proto files alone, as users of other languages do."""
 
 import contextlib
 import pathlib

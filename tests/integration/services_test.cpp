@@ -30,7 +30,7 @@ TEST(Services, ReflectionListsThem) {
   }
 }
 
-// The descriptions of symbols, of both versions: the file with what it imports.
+// Both versions of reflection describe symbols by their file and the files that it imports.
 TEST(Services, ReflectionDescribesThem) {
   const Peer peer(shared_daemon().address());
   for (const std::string& version : kReflections) {
@@ -54,8 +54,8 @@ TEST(Services, ReflectionDescribesThem) {
 TEST(Services, ReflectionSaysWhatItDoesNotKnow) {
   const Peer peer(shared_daemon().address());
   const std::string name = "isofield.v1.No\nthing";
-  const RawAnswer answer =
-      raw_call(peer.channel(), kReflections[0], absl::StrCat("\x22", std::string(1, static_cast<char>(name.size())), name));
+  const RawAnswer answer = raw_call(peer.channel(), kReflections[0],
+                                    absl::StrCat("\x22", std::string(1, static_cast<char>(name.size())), name));
   EXPECT_TRUE(ok(answer.status));
   EXPECT_NE(answer.message.find("no symbol is named 'isofield.v1.No\\nthing'"), std::string::npos);
 }
@@ -82,7 +82,7 @@ TEST(Services, UnknownMethodsDoNoHarm) {
   expect_serving(shared_daemon().address());
 }
 
-// Every method of the contract, so that a new one is tested without being named here.
+// Finds every method of the contract, so that an added one is tested without being named here.
 std::vector<const google::protobuf::MethodDescriptor*> all_methods() {
   std::vector<const google::protobuf::MethodDescriptor*> methods;
   for (const auto* file : {v1::EvaluateRequest::descriptor()->file(), v1::MeshRequest::descriptor()->file(),
@@ -100,9 +100,9 @@ TEST(Services, RequestsThatCannotBeReadAreInvalidArguments) {
   EXPECT_GE(all_methods().size(), 23u);
   for (const auto* method : all_methods()) {
     const std::string name = absl::StrCat("/", method->service()->full_name(), "/", method->name());
-    // A message that ends within a field, and one whose first tag is none.
+    // The first message ends within a field, and the first tag of the second one is invalid.
     std::vector<std::string> messages{std::string("\x0a\xff\xff\xff\x7f", 5), std::string(64, '\xff')};
-    // A string that is no UTF-8, where the request begins with one.
+    // Where a request begins with a string, this one is not UTF-8.
     const auto* first = method->input_type()->FindFieldByNumber(1);
     if (first && first->type() == google::protobuf::FieldDescriptor::TYPE_STRING) messages.emplace_back("\x0a\x01\xff");
     for (const std::string& message : messages) {

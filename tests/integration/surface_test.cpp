@@ -32,7 +32,7 @@ v1::Scene two_balls() {
     {"max": {"children": ["left", "#1"]}}])");
 }
 
-// Nested so that what is far from the balls may be inside.
+// The operators are nested so that points far from the balls may be inside.
 constexpr char kUnbounded[] = R"([
     {"name": "a", "sphere": {"radius": 1, "law": "SIGNED"}}, {"name": "b", "sphere": {"radius": 2, "law": "SIGNED"}},
     {"name": "both", "superelliptic": {"children": ["a", "b"], "exponent": 2, "ranges": [1]}},
@@ -126,7 +126,7 @@ TEST(Surface, ASliceSpansTheSupportsByDefault) {
   EXPECT_EQ(slice->values.size(), 512u * 512);
   EXPECT_GT(*std::max_element(slice->values.begin(), slice->values.end()), 0.9) << "through the middle";
 
-  // A plane through the long axis, of which only the counts or only the spacing are stated.
+  // The plane goes through the long axis; either the counts or the spacing are stated.
   for (const double x : {0, 1, 0}) request.add_u(x);
   for (const double x : {0, 0, 1}) request.add_v(x);
   slice = c.slice(request);

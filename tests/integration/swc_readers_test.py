@@ -18,7 +18,8 @@ import tempfile
 SKIPPED = 77
 PACKAGES = ["morphio>=3.5", "navis>=1.12"]
 
-# Prints an object: by file, what the readers count, or None where one refuses the file.
+# A program that prints an object with the counts of both readers for each file, or None where a reader refuses the
+# file.
 COUNT = """
 import json, logging, os, sys, warnings
 warnings.filterwarnings("ignore")
@@ -66,7 +67,7 @@ NAVIS_REFUSES = {
     "z_jump.swc": "a comment after a blank line at the end",
 }
 
-# By file: morphio's edges less isofield's, and why.
+# For each file: the number of morphio's edges minus isofield's, and why they differ.
 MORPHIO_DIFFERENCES = {
     "Neuron-monotonic.swc": (-80, "the file repeats each of the 80 points where a section begins; morphio leaves out "
                              "the edges of length 0, isofield reports them"),

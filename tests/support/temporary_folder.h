@@ -1,4 +1,4 @@
-// A folder for a test.
+// Makes folders for tests.
 #pragma once
 
 #include <absl/strings/str_cat.h>
@@ -10,7 +10,7 @@
 
 namespace isofield::test_support {
 
-// Empty, the process's own, and gone with the object.
+// An empty folder that no other process uses. It is removed with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder()

@@ -1,4 +1,4 @@
-// How answers are cut into messages.
+// Tests how answers are cut into messages.
 #include "rpc/answer_limit.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace isofield::rpc {
 namespace {
 
-// The largest message that a grid's answer of so many rows can be: all its places are large numbers.
+// The size of the largest message that an answer of so many rows of a grid can be: all places in it are large numbers.
 std::uint64_t grid_message_bytes(std::uint64_t rows, std::uint64_t columns) {
   v1::EvaluateGridResponse response;
   response.set_first_layer(~0ull);
@@ -94,7 +94,7 @@ TEST(GridParts, FollowOneAnotherAndKeepTheLimit) {
         EXPECT_GT(columns * rows * layers, 0u);
         EXPECT_TRUE(columns == nx || rows * layers == 1) << "points of one row";
         EXPECT_TRUE(rows == ny || layers == 1) << "rows of one layer";
-        // Whole layers wherever a part holds one.
+        // A part has whole layers if it can hold one.
         if (most >= nx * ny) {
           EXPECT_EQ(columns * rows, nx * ny);
         }

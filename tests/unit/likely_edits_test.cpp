@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace {
 using test_support::compile_or_die;
 using test_support::read_or_die;
 
-// The kinds of a scene's nodes, root last.
+// The kinds of a scene's nodes, with the root last.
 std::vector<v1::Node::KindCase> kinds_of(const v1::Scene& scene) {
   std::vector<v1::Node::KindCase> kinds;
   for (const v1::Node& node : scene.nodes()) kinds.push_back(node.kind_case());
@@ -32,7 +31,8 @@ TEST(LikelyEdits, AddToARootOfAnyNumberOfOperands) {
     {"name": "b", "sphere": {"radius": 1, "range": 0.5}}, )";
   for (const std::string root : {"sum", "max", "min", "gradient", "ricci"}) {
     const std::string exponent = root == "ricci" ? R"(, "exponent": 4)" : "";
-    const auto scenes = likely(spheres + R"({"name": "r", ")" + root + R"(": {"children": ["a", "b"])" + exponent + "}}");
+    const auto scenes =
+        likely(spheres + R"({"name": "r", ")" + root + R"(": {"children": ["a", "b"])" + exponent + "}}");
     ASSERT_EQ(scenes.size(), 4u);
     EXPECT_EQ(scenes[0].root(), "#2") << root;
     EXPECT_EQ(scenes[0].nodes(3).kind_case(), v1::Node::kBox);

@@ -1,4 +1,4 @@
-// Edits find their fields by either name, and say what there is where they do not.
+// Edits find fields by their names in the .proto file and in JSON; errors list the fields there are.
 #include "blobtree/parameter_edit.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Texts of others in errors: readable, short, and valid in a status.
+// Texts that clients send appear in errors readable, short and valid in a status.
 #include "base/quoted.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(Quoted, PrefixesEndWithAWholeCharacter) {
   EXPECT_EQ(base::utf8_prefix("🐟🐟", 7), "🐟");
 }
 
-// What gRPC makes of it: bytes that are no plain ASCII take three.
+// The bytes that gRPC makes of a message: one that is not plain ASCII takes three.
 std::size_t header_bytes(const std::string& message) {
   std::size_t bytes = 0;
   for (const unsigned char c : message) bytes += c < 0x20 || c > 0x7e || c == '%' ? 3 : 1;

@@ -1,4 +1,4 @@
-// Arrays of requests as plain numbers.
+// Requests may have arrays as plain numbers.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -5,16 +5,16 @@
 
 namespace isofield {
 
-// What options and arguments are checked with; each says what it expects. CLI11's own checks pass NaN and take "5x" for
-// a number, and their messages print the greatest double.
+// Checks for options and arguments, whose errors say what is expected. CLI11's own checks accept NaN and "5x" as
+// numbers, and their messages print the greatest double.
 
-// A finite number above 0.
+// Accepts finite numbers above 0.
 CLI::Validator positive();
-// Any finite number.
+// Accepts any finite number.
 CLI::Validator number();
-// A number within [least, most].
+// Accepts numbers within [least, most].
 CLI::Validator within(double least, double most);
-// A whole number within [least, most].
+// Accepts whole numbers within [least, most].
 CLI::Validator whole(std::uint64_t least, std::uint64_t most);
 
 }  // namespace isofield

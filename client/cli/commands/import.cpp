@@ -54,8 +54,8 @@ void add_import_command(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("import", "Make a scene of a neuron, a molecule or points; needs no server");
   command
       ->add_option("FILE", arguments->file,
-                   "Neuron (.swc), molecule (.pdb, .cif, .xyz) or points, one \"x y z\" a line (.xyz, .txt, .csv); also "
-                   "packed (.gz)")
+                   "Neuron (.swc), molecule (.pdb, .cif, .xyz) or points, one \"x y z\" a line (.xyz, .txt, .csv); "
+                   "also packed (.gz)")
       ->required();
   command->add_option("-o,--output", arguments->output, "Scene to write (.json, .pb); - is the standard output")
       ->capture_default_str();

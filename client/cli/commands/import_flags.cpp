@@ -25,7 +25,8 @@ void ImportFlags::add_to(CLI::App& command) {
       ->group(kGroup);
   command
       .add_option("--radius-column", options.radius_column,
-                  "Bare points: the column that holds each point's own R, by its name in the header or its number from 1")
+                  "Bare points: the column that holds each point's own R, by its name in the header or its number from "
+                  "1")
       ->group(kGroup);
   command
       .add_option("--min-radius", options.min_radius,

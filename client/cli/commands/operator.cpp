@@ -92,7 +92,7 @@ absl::Status show(const Context& context, const std::string& name) {
   const auto text = format_operator_json(response->operator_());
   if (!text.ok()) return text.status();
   std::fwrite(text->data(), 1, text->size(), stdout);
-  // What there is to set is not on the standard output, which is a file to be put.
+  // The parameters go to the standard error, since the standard output is a file for `operator put`.
   std::fflush(stdout);
   absl::FPrintF(stderr, "%s\n", parameters.empty() ? "It has no parameters." : "Parameters of this kind of operator:");
   for (const auto& [parameter, range] : parameters) {

@@ -65,7 +65,7 @@ absl::Status PictureFlags::draw(const Context& context, Client& client) const {
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
   const double render_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  // An empty surface has no place to look at.
+  // The view of an empty surface has no target, so it is not kept.
   if (options.view.target) status = view.keep(options.view);
   if (!status.ok()) return status;
   const std::vector<std::string> warnings = mesh_warnings(surface->summary, mesh.cells_by());

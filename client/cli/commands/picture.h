@@ -10,16 +10,16 @@
 
 namespace isofield {
 
-// What the commands that draw a surface ask for, and the drawing itself.
+// The options of the commands that draw a surface, and the drawing itself.
 struct PictureFlags {
   MeshFlags mesh;
   ViewFlags view;
   std::string output, size = "1280x960";
 
   void add_to(CLI::App& command);
-  // What can be told before anything is asked for: of usage, or of the files that are to be written.
+  // Finds errors of usage, and of the files to be written, before the server is asked for anything.
   absl::Status check() const;
-  // Meshes the surface, draws it, writes the picture and keeps the view; then says so on the standard output.
+  // Meshes the surface, draws it, writes the picture and keeps the view. Prints a line, or an object for --json.
   absl::Status draw(const Context& context, Client& client) const;
 };
 

@@ -25,11 +25,11 @@ struct PointTableArguments {
   void add_to(CLI::App& command, const std::string& points_name);
 };
 
-// All points of a file, [n, 3], and the reader's notes.
+// Reads all points of a file, [n, 3], and adds the reader's notes to `notes`.
 absl::StatusOr<std::vector<float>> read_points(const std::string& path, std::vector<std::string>& notes,
                                                const VectorColumns& wanted = {});
 
-// Notes on the standard error, but with --json.
+// Prints notes on the standard error; with --json nothing, since they are a part of the object there.
 void print_notes(const Context& context, const std::vector<std::string>& notes);
 
 // Reads, asks and writes. `ask` fills the table from the answers.

@@ -66,9 +66,9 @@ void add_ray_command(CLI::App& app, Context& context) {
       "ray", "Find where rays first meet the surface: distance (inf: nowhere),x,y,z,nx,ny,nz,inside,node");
   arguments->add_to(*command, "--origins");
   auto* each = command->add_option("--directions", arguments->directions,
-                                   "A direction for each origin, of any length but 0: columns dx, dy, dz, or the normals "
-                                   "nx, ny, nz, or x, y, z. A file that has the origins too names them ox, oy, oz, or has "
-                                   "six columns without names");
+                                   "A direction for each origin, of any length but 0: columns dx, dy, dz, or the "
+                                   "normals nx, ny, nz, or x, y, z. A file that has the origins too names them ox, oy, "
+                                   "oz, or has six columns without names");
   command->add_option("--direction", arguments->direction, "x,y,z: one direction for all rays, of any length but 0")
       ->check(number())
       ->delimiter(',')

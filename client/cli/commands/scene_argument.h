@@ -9,7 +9,7 @@
 
 namespace isofield {
 
-// load_scene_file(), with an import's report on the standard error.
+// Calls load_scene_file(), and prints an import's report on the standard error.
 absl::StatusOr<LoadedScene> load_scene(const std::string& path, const ImportOptions& options);
 
 // SCENE of the command line: a file if there is one of that name, else a name on the server.

@@ -12,7 +12,7 @@
 namespace isofield {
 namespace {
 
-// From the program to the command that was chosen.
+// The program, the command that the user chose, and the commands between them.
 std::vector<const CLI::App*> chain_of(const CLI::App& app) {
   std::vector<const CLI::App*> chain{&app};
   while (!chain.back()->get_subcommands().empty()) chain.push_back(chain.back()->get_subcommands().front());
@@ -45,7 +45,7 @@ std::string explain_extra(const std::vector<const CLI::App*>& chain, const std::
   return absl::StrCat(wanted, ": no such option of ", command, did_you_mean(wanted, names));
 }
 
-// The option or argument that CLI11's message speaks of; nullptr: of none.
+// The option or argument that CLI11's message is about; nullptr where it is about none.
 const CLI::Option* option_in(const std::string& message, const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     std::vector<std::string> names;
@@ -70,7 +70,7 @@ std::string chosen_command(const CLI::App& app) {
 
 std::string explain_usage(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<const CLI::App*> chain = chain_of(app);
-  // Asked for before what is required: a misspelt option leaves another one missing.
+  // Unknown words come before missing options: a misspelt option leaves the real one missing.
   for (const CLI::App* one : chain) {
     const std::vector<std::string> extras = one->remaining();
     if (!extras.empty()) return explain_extra(chain, extras.front());
@@ -79,7 +79,7 @@ std::string explain_usage(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::RequiredError*>(&error) && absl::StrContains(what, "subcommand")) {
     return absl::StrCat("a command is missing; expected ", absl::StrJoin(commands_of(*chain.back()), ", "));
   }
-  // Our checks say what they expect, and so does CLI11's own of choices ("not in {...}").
+  // The checks of checks.h say what they expect, and so does CLI11's check of choices ("not in {...}").
   if (absl::StrContains(what, ": expected ") || absl::StrContains(what, " not in {")) return what;
   for (const CLI::App* one : chain) {
     const CLI::Option* option = option_in(what, *one);

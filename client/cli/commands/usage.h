@@ -9,11 +9,11 @@ class ParseError;
 
 namespace isofield {
 
-// What is wrong with a command line and what is accepted, in a sentence: an unknown command or option comes with the
-// nearest one, a missing or unreadable value with the option's description.
+// Says in a sentence what is wrong with a command line and what is accepted. An unknown command or option comes with
+// the nearest known one, a missing or unreadable value with the option's description.
 std::string explain_usage(const CLI::App& app, const CLI::ParseError& error);
 
-// The command that was chosen with the commands above it: "isofield operator eval".
+// The command that the user chose with all commands above it, such as "isofield operator eval".
 std::string chosen_command(const CLI::App& app);
 
 }  // namespace isofield

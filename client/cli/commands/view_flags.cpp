@@ -3,7 +3,7 @@
 #include <absl/strings/str_cat.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -26,7 +26,7 @@ const std::map<std::string, Side>& sides() {
   return *kSides;
 }
 
-// Where a direction looks from; the azimuth of a look straight up or down is 0.
+// The side from which a direction looks. The azimuth is 0 where it looks straight up or down.
 Side side_of(const std::array<double, 3>& direction) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   const auto& [x, y, z] = direction;

@@ -14,15 +14,15 @@ class App;
 
 namespace isofield {
 
-// The options that say from where a picture is taken, and the file that keeps it.
+// The options that say from where a picture is taken, and the file that keeps these settings.
 class ViewFlags {
  public:
   void add_to(CLI::App& command);
 
-  // What the file keeps, where there is one, with what the options say instead. Errors of the file are a file's, others
-  // of usage.
+  // The view of the file, if there is one, with the options overriding it. Faults of the file are file errors, others
+  // are errors of usage.
   absl::StatusOr<View> view() const;
-  // Writes the view that a picture was taken from into the file, where one is named and holds another.
+  // Writes the view of a picture into the file. Does nothing where no file is named or it holds this view already.
   absl::Status keep(const View& view) const;
 
  private:

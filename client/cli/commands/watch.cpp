@@ -24,13 +24,13 @@ absl::Status watch(const Context& context, const PictureFlags& flags) {
   }
   auto client = context.connect();
   if (!client.ok()) return client.status();
-  // Before the file is read for the first time, so that no change is missed.
+  // The watch begins before the file is read for the first time, so that no change is missed.
   auto changes = FileWatch::create(path);
   if (!changes.ok()) return file_error(changes.status());
   end_well_when_interrupted();
   for (bool is_first = true;; is_first = false) {
     const absl::Status status = flags.draw(context, *client);
-    // A server that never was there is no fault of the file's.
+    // Without a server there is nothing to watch for; other errors may go away with the next change of the file.
     if (is_first && exit_code(status) == kNoServer) return status;
     if (!status.ok()) report_error(status, context.json);
     std::fflush(stdout);

@@ -22,7 +22,8 @@ OperatorArity arity_of(const v1::Operator& message);
 absl::StatusOr<std::vector<std::string>> choose_columns(const v1::Operator& message,
                                                         const std::vector<std::string>& there);
 
-// The places of columns among those there are. INVALID_ARGUMENT: one is there twice; lists the names.
+// The place of each of `columns` in `there`, a table's columns. INVALID_ARGUMENT: one of them is not there exactly
+// once; the message lists the names.
 absl::StatusOr<std::vector<std::size_t>> places_of(const std::vector<std::string>& columns,
                                                    const std::vector<std::string>& there);
 

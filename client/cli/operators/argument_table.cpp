@@ -48,7 +48,7 @@ absl::StatusOr<bool> ArgumentTable::next_cells() {
     const auto got = lines_.next(line, kExpected);
     if (!got.ok() || !*got) return got;
     if (is_comment(line)) continue;
-    // The first row tells how the rows are parted.
+    // The first row tells which separator the rows have.
     if (!has_row_) has_row_ = head_.take(line);
     if (!has_row_) continue;
     cells_ = split_cells(absl::StripAsciiWhitespace(line), head_.separator());

@@ -11,8 +11,8 @@
 
 namespace isofield {
 
-// A text of numbers in named columns: a header line, then a row a line, read as table_head.h says: cells between
-// commas, semicolons, tabs or blanks, decimal commas between semicolons only. Single-threaded.
+// A text of numbers in named columns: a header line, then one row a line. Cells are separated by commas, semicolons,
+// tabs or blanks; decimal commas are read between semicolons only (tables/table_head.h). Single-threaded.
 class ArgumentTable {
  public:
   // Reads the header. INVALID_ARGUMENT: there is none. NOT_FOUND ...: the file cannot be read.

@@ -16,7 +16,7 @@ constexpr char kExponent[] = "a number within [1, 64]";
 constexpr char kTangent[] = "degrees within [0, 45]";
 constexpr char kOmega[] = "a number within [0.001, 1]";
 
-// By "Message.field".
+// The ranges by "Message.field".
 const absl::flat_hash_map<std::string, ParameterRange>& ranges() {
   static const auto* const kRanges = new absl::flat_hash_map<std::string, ParameterRange>{
       {"Ricci.exponent", {kExponent, ""}},

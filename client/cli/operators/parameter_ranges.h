@@ -8,11 +8,12 @@ namespace isofield {
 
 // What a field of an operator, an opening or a silhouette accepts, as scene.proto and operator.proto state it.
 struct ParameterRange {
-  std::string accepts;    // "a number within [1, 64]"
-  std::string otherwise;  // the default in words; empty: the field must be stated
+  std::string accepts;    // in words, such as "a number within [1, 64]"
+  std::string otherwise;  // the default in words; empty where the field must be stated
 };
 
-// Of a field that is no message and no operand. A field without an entry has an empty range, which a test forbids.
+// The range of a field that is neither a message nor an operand. Every such field has an entry, as a test checks;
+// without one the range is empty.
 ParameterRange range_of(const google::protobuf::FieldDescriptor& field);
 
 }  // namespace isofield

@@ -158,7 +158,7 @@ absl::Status set_parameter(const std::string& assignment, Message& message) {
   }
   if (found.empty()) {
     const std::vector<std::string> names = parameter_names(message);
-    // "theta0" is near to "teta0", and stands for opening.theta0.
+    // Names within messages count by themselves too: for "teta0" the nearest one is "theta0", which is opening.theta0.
     std::vector<std::string> all = names;
     for (const Place& place : places_of(message)) all.push_back(place.field->name());
     return refuse(assignment, names.empty() ? "no parameter: this operator has none"

@@ -18,13 +18,13 @@ struct Parameter {
   std::string name;
   ParameterRange range;
 };
-// The same names, but for those of messages, each with what it accepts and its default.
+// The same names without those of messages, each with what it accepts and its default.
 std::vector<Parameter> describe_parameters(const google::protobuf::Message& message);
 
-// "NAME=VALUE" into a field of an operator or an opening, by its name in the contract or in JSON ("by_angle",
-// "byAngle"). Upper and lower case are the same; "theta0" finds
-// opening.theta0; the name of a message ("opening") means its enum field; lists are separated by commas.
-// INVALID_ARGUMENT: no such name or value; says which there are.
+// Writes "NAME=VALUE" into a field of an operator or an opening. NAME is that of the .proto file or of JSON
+// ("by_angle", "byAngle"), in any case; "theta0" finds opening.theta0, and the name of a message ("opening") means its
+// enum field. Lists are separated by commas. INVALID_ARGUMENT: there is no such name or value; the message lists those
+// there are.
 absl::Status set_parameter(const std::string& assignment, google::protobuf::Message& message);
 
 }  // namespace isofield

@@ -7,7 +7,8 @@
 
 namespace isofield {
 
-// `place`: where the character is known to be, or from where on to look for it; end_: it is not in the block.
+// Moves `place` to the next `wanted` from begin_ on, or to end_ where the block has none. `place` is the result of the
+// last search: what lies before it need not be searched again.
 void FileLines::find_next(char wanted, std::size_t& place) const {
   place = std::max(place, begin_);
   if (place >= end_ || block_[place] == wanted) return;
@@ -15,7 +16,7 @@ void FileLines::find_next(char wanted, std::size_t& place) const {
   place = found ? static_cast<std::size_t>(static_cast<const char*>(found) - block_.data()) : end_;
 }
 
-// Nullptr: the line goes on beyond the block.
+// The end of the line that begins at begin_; nullptr where the line continues beyond the block.
 const char* FileLines::find_line_end() {
   find_next('\n', next_lf_);
   find_next('\r', next_cr_);
@@ -25,7 +26,7 @@ const char* FileLines::find_line_end() {
 
 absl::StatusOr<bool> FileLines::next(absl::string_view& line, const char* expected) {
   while (true) {
-    // The LF of a CR LF.
+    // Skips the LF of a CR LF.
     if (after_cr_ && begin_ < end_) {
       if (block_[begin_] == '\n') ++begin_;
       after_cr_ = false;

@@ -3,7 +3,6 @@
 #include <absl/status/statusor.h>
 #include <absl/strings/string_view.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@
 
 namespace isofield {
 
-// The lines of a text, read by blocks; they end at LF, CR LF or CR. Single-threaded.
+// The lines of a text, which is read in blocks. Lines end at LF, CR LF or CR. Single-threaded.
 class FileLines {
  public:
   explicit FileLines(InputFile file) : file_(std::move(file)) {}
@@ -36,7 +35,7 @@ class FileLines {
   std::vector<char> block_ = std::vector<char>(kBlockBytes);
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
-  // Where the next LF and CR are, or end_: none in the block. Each part of it is searched once.
+  // The places of the next LF and CR, or end_ where the block has none. Each part of the block is searched once.
   std::size_t next_lf_ = 0;
   std::size_t next_cr_ = 0;
   std::size_t line_number_ = 0;

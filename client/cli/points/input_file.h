@@ -9,19 +9,18 @@
 
 namespace isofield {
 
-// The bytes of a file, or of the standard input, whose first ones can be looked at before they are read.
-// Single-threaded.
+// The bytes of a file or of the standard input. The first bytes can be looked at before they are read. Single-threaded.
 class InputFile {
  public:
   // "-" is the standard input. NOT_FOUND, PERMISSION_DENIED ...: the file cannot be opened.
   static absl::StatusOr<InputFile> open(const std::string& path);
 
-  // The first bytes, at most 512; they are still to be read.
+  // The first bytes, at most 512; read() returns them again.
   absl::string_view start() const { return start_; }
   // Reads up to `bytes`; fewer only at the end. UNKNOWN ...: the file cannot be read.
   absl::StatusOr<std::size_t> read(void* data, std::size_t bytes);
 
-  // For errors; "<stdin>" for the standard input.
+  // The name for errors; that of the standard input is "<stdin>".
   const std::string& name() const { return name_; }
 
  private:

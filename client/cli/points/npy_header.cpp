@@ -3,8 +3,6 @@
 #include <absl/strings/numbers.h>
 #include <absl/strings/str_cat.h>
 
-#include <algorithm>
-
 #include "excerpt.h"
 #include "points/python_literal.h"
 
@@ -22,14 +20,14 @@ absl::Status refuse_type(absl::string_view type) {
                    "or a structured type with fields x, y and z"));
 }
 
-// "<f4". A type that is no number, such as text, has a size but no number.
+// Reads a plain type, such as "<f4". A type that is no number, such as text, has a size, but number.bytes becomes 0.
 absl::Status parse_type(absl::string_view type, NpyNumber& number, std::size_t& bytes) {
   absl::string_view rest = type;
   const char order = rest.empty() ? '\0' : rest.front();
   if (order == '<' || order == '>' || order == '|' || order == '=') rest.remove_prefix(1);
   if (rest.empty()) return refuse_type(type);
   const char kind = rest.front();
-  // "M8[ns]" names a unit after the size.
+  // A unit may follow the size, as in "M8[ns]".
   rest = rest.substr(1, rest.find('[') == absl::string_view::npos ? rest.npos : rest.find('[') - 1);
   std::uint32_t size = 0;
   if (kind == '?') size = 1;
@@ -42,14 +40,14 @@ absl::Status parse_type(absl::string_view type, NpyNumber& number, std::size_t& 
   return absl::OkStatus();
 }
 
-// The number of elements of a field's shape: 3 or (3,).
+// The number of elements in a field's shape, which is written as 3 or (3,). Nothing: it cannot be read or is too large.
 std::optional<std::size_t> count_of(const PythonLiteral& shape) {
   std::size_t count = 1;
   const auto multiply = [&](const PythonLiteral& factor) {
     std::uint32_t number = 0;
     if (factor.kind != Kind::kNumber || !absl::SimpleAtoi(factor.text, &number) || number > kMostItemBytes)
       return false;
-    // Without an element the size of a type could not limit how far it nests.
+    // Fields without elements have no size, so that the limit of a type's size could not limit how many there are.
     if (number == 0) return false;
     count *= number;
     return count <= kMostItemBytes;
@@ -62,8 +60,8 @@ std::optional<std::size_t> count_of(const PythonLiteral& shape) {
   return count;
 }
 
-// Adds the fields of a type at an offset, and says how many bytes it takes. Names of nested fields follow the outer
-// one's.
+// Adds the fields of a type at an offset, and sets `bytes` to the size of the type. The name of a nested field follows
+// that of the outer one.
 absl::Status add_fields(const PythonLiteral& type, const std::string& name, std::size_t offset, NpyHeader& header,
                         std::size_t& bytes) {
   if (type.kind == Kind::kText) {
@@ -79,7 +77,7 @@ absl::Status add_fields(const PythonLiteral& type, const std::string& name, std:
     if (part.kind != Kind::kList || part.items.size() < 2 || part.items.size() > 3) {
       return absl::InvalidArgumentError("the header is damaged: no structured type can be read from it");
     }
-    // A title stands before the name: (title, name).
+    // A name may be a pair: (title, name).
     const PythonLiteral& label = part.items[0];
     const std::string& own = label.kind == Kind::kList && label.items.size() == 2 ? label.items[1].text : label.text;
     const std::string full = name.empty() ? own : absl::StrCat(name, " ", own);
@@ -121,7 +119,7 @@ absl::StatusOr<NpyHeader> parse_npy_header(absl::string_view dictionary) {
   NpyHeader header;
   header.fortran_order = order->text == "True";
   for (const PythonLiteral& length : shape->items) {
-    // Python 2 wrote "3L".
+    // Files of Python 2 have lengths such as "3L".
     const absl::string_view digits = absl::string_view(length.text).substr(0, length.text.find('L'));
     if (length.kind != Kind::kNumber || !absl::SimpleAtoi(digits, &header.shape.emplace_back())) {
       return absl::InvalidArgumentError(
@@ -134,7 +132,7 @@ absl::StatusOr<NpyHeader> parse_npy_header(absl::string_view dictionary) {
 }
 
 std::string npy_header(std::uint64_t rows, std::uint64_t columns) {
-  // With the padding that the format asks for.
+  // The format asks for a length that is a multiple of 64.
   return with_magic(absl::StrCat("{'descr': '<f4', 'fortran_order': False, 'shape': (", rows, ", ", columns, "), }"),
                     128);
 }

@@ -9,25 +9,25 @@
 
 namespace isofield {
 
-// One number of an array's element: how it is stored, and where.
+// How a number is stored in an array.
 struct NpyNumber {
   char kind = 'f';  // 'f': IEEE float, 'i': signed, 'u': unsigned
   std::size_t bytes = 4;
   bool big_endian = false;
 };
 
-// A named part of an element. A field of several numbers ("pos" of 3) is one entry for each ("pos x", "pos y", "pos
-// z").
+// A named part of an array's element. A field of several numbers has an entry for each of them: "pos" of 3 numbers
+// becomes "pos x", "pos y" and "pos z".
 struct NpyField {
   std::string name;
   std::size_t offset = 0;
-  // bytes == 0: not a number, such as text.
+  // Its `bytes` are 0 where the field is not a number but, for example, text.
   NpyNumber number;
 };
 
 // What the header of a NumPy file says.
 struct NpyHeader {
-  // One without a name for a plain array.
+  // A plain array has one field without a name.
   std::vector<NpyField> fields;
   std::size_t item_bytes = 0;
   bool fortran_order = false;
@@ -36,14 +36,16 @@ struct NpyHeader {
   bool is_structured() const { return fields.size() != 1 || !fields[0].name.empty(); }
 };
 
-// The dictionary of a header: a Python literal. INVALID_ARGUMENT: it is damaged, or describes what has no numbers, such
-// as pickled objects.
+// Parses the dictionary of a header, which is a Python literal. INVALID_ARGUMENT: it is damaged, or the array has no
+// numbers but, for example, pickled objects.
 absl::StatusOr<NpyHeader> parse_npy_header(absl::string_view dictionary);
 
-// The start of a NumPy file (version 1.0) of float32 [rows, columns], row after row: 128 bytes, whatever the numbers.
+// The start of a NumPy file (version 1.0) with an array of float32 [rows, columns], row after row. It always has 128
+// bytes, so that it can be overwritten once the number of rows is known.
 std::string npy_header(std::uint64_t rows, std::uint64_t columns);
 
-// The start of a NumPy file (version 1.0) of structures [rows] with a float32 for each name, in their order.
+// The start of a NumPy file (version 1.0) with an array of structures [rows] that have a float32 for each name, in the
+// order of the names.
 std::string npy_header(std::uint64_t rows, const std::vector<std::string>& names);
 
 }  // namespace isofield

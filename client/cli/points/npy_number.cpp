@@ -15,7 +15,7 @@ double as(const char* bytes) {
   return static_cast<double>(value);
 }
 
-// IEEE 754 binary16.
+// Reads a float16 (IEEE 754 binary16).
 double read_half(const char* bytes) {
   std::uint16_t bits;
   std::memcpy(&bits, bytes, sizeof(bits));

@@ -4,7 +4,7 @@
 
 namespace isofield {
 
-// The number that is stored at `bytes`.
+// Reads the number at `bytes`, which need not be aligned.
 double read_npy_number(const char* bytes, const NpyNumber& number);
 
 }  // namespace isofield

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "points/npy_header.h"
 #include "points/npy_number.h"
@@ -16,7 +15,7 @@ namespace {
 
 // A header that describes one array of numbers has some hundred bytes.
 constexpr std::uint32_t kMaxHeader = 65536;
-// Arrays of more columns are pictures, or have a point a column.
+// Arrays of more columns are refused: they are pictures, or have one point in each column.
 constexpr std::uint64_t kMostColumns = 64;
 constexpr std::size_t kChunkBytes = 1 << 20;
 
@@ -40,13 +39,13 @@ class NpyPoints : public PointReader {
   }
 
   InputFile file_;
-  // Of x, y, z and, where there is one, the distance.
+  // The fields of x, y, z and, where there is one, the distance.
   std::vector<NpyField> chosen_;
   std::size_t row_bytes_ = 0;
   std::uint64_t rows_ = 0;
   std::uint64_t row_ = 0;
   std::vector<char> bytes_;
-  // Of an array in Fortran order: its points.
+  // All points of an array in Fortran order.
   bool is_whole_ = false;
   std::vector<float> whole_;
   std::string note_;
@@ -122,7 +121,7 @@ absl::Status NpyPoints::choose_columns(const NpyHeader& header, const VectorColu
   return absl::OkStatus();
 }
 
-// Reads bytes_ anew.
+// Replaces bytes_ by the next `bytes` of the file.
 absl::Status NpyPoints::read_bytes(std::size_t bytes) {
   bytes_.resize(bytes);
   const auto got = file_.read(bytes_.data(), bytes);
@@ -131,7 +130,8 @@ absl::Status NpyPoints::read_bytes(std::size_t bytes) {
   return refuse(absl::StrCat("the file is cut off; its header states ", rows_, " points"));
 }
 
-// Fortran order: column after column. A header may state more rows than there are, so memory grows with what is read.
+// Reads an array in Fortran order, column after column. Memory grows with the bytes read, since the header may state
+// more rows than there are.
 absl::Status NpyPoints::read_columns(const NpyNumber& number) {
   const std::size_t first = chosen_[0].offset / number.bytes;
   for (std::size_t column = 0; column < first + 3; ++column) {

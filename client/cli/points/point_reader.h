@@ -11,8 +11,8 @@
 
 namespace isofield {
 
-// Reads points, or other vectors, in chunks, so that a file of any length needs the memory of a chunk (a NumPy array in
-// Fortran order: of all its points). Single-threaded.
+// Reads points, or other vectors, in chunks, so that a file of any length needs the memory of one chunk. Only a NumPy
+// array in Fortran order needs the memory of all its points. Single-threaded.
 class PointReader {
  public:
   virtual ~PointReader() = default;
@@ -22,29 +22,28 @@ class PointReader {
   // not finite are refused here, where the line is known.
   virtual absl::Status read(std::size_t max_points, std::vector<float>& xyz) = 0;
 
-  // Sentences on what was left out of the rows read so far, for the user.
+  // Sentences for the user about columns and rows that are left out, of the rows read so far.
   virtual std::vector<std::string> notes() const = 0;
 };
 
-// "-" is the standard input. A file that begins with NumPy's magic bytes is an array, whatever its name is; else it is
-// text.
+// Opens a file of points; "-" is the standard input. A file that begins with NumPy's magic bytes is an array, whatever
+// its name is. Any other file is text.
 //
 // Which columns hold the vectors:
 //  - With a header (text) or fields (NumPy's structured types): those that find_vector() chooses by their names.
 //    INVALID_ARGUMENT: they are not there.
-//  - Without: the first three, with a note on the others.
+//  - Without names: the first three, with a note on the others.
 // Rows whose column "distance" is not finite are left out, with a note: `isofield ray` writes them for rays that hit
 // nothing.
 //
-// Text is read as table_head.h says: a point a line, cells between commas, semicolons, tabs or blanks, decimal commas
-// between semicolons only, lines that end at LF, CR LF or CR. NumPy: versions 1 to 3, shape (n, 3 to 64) or a
-// structured type of shape (n,); integers and floats of any size and byte order; C or Fortran order.
+// Text has one point a line. Cells are separated by commas, semicolons, tabs or blanks; decimal commas are read between
+// semicolons only (tables/table_head.h). NumPy files are of versions 1 to 3, with shape (n, 3 to 64), or a structured
+// type and shape (n,). Their numbers are integers or floats of any size and byte order, in C or Fortran order.
 absl::StatusOr<std::unique_ptr<PointReader>> open_points(const std::string& path, const VectorColumns& wanted = {});
 
 // What --help says of such files.
 inline constexpr char kPointsHelp[] =
     "Text with a point a line (.csv) or a NumPy array (.npy); - is the standard input. Columns or fields named x, y, "
-    "z, "
-    "in any order; without names the first three. Rows of `isofield ray` that hit nothing are left out";
+    "z, in any order; without names the first three. Rows of `isofield ray` that hit nothing are left out";
 
 }  // namespace isofield

@@ -9,20 +9,20 @@
 
 namespace isofield {
 
-// A value of Python as its source text writes it; as much as headers of NumPy files need.
+// A Python value as written in source text; only what headers of NumPy files need.
 struct PythonLiteral {
   enum class Kind { kText, kNumber, kName, kList, kDictionary };
   Kind kind = Kind::kName;
-  // Of a text without quotes; of a number or name (True, None) as written.
+  // A text without its quotes; a number or a name (True, None) as written.
   std::string text;
-  // Of a list or tuple; of a dictionary keys and values in turn.
+  // The items of a list or a tuple; the keys and values of a dictionary in turn.
   std::vector<PythonLiteral> items;
 
-  // Of a dictionary; nullptr: it has no such key.
+  // The value of a key; nullptr where this is no dictionary or has no such key.
   const PythonLiteral* find(absl::string_view key) const;
 };
 
-// Nothing: the text is not one such value, or nested more than 16 deep.
+// Parses a text that is one value. Nothing: it is not, or it is nested more than 16 deep.
 std::optional<PythonLiteral> parse_python_literal(absl::string_view text);
 
 }  // namespace isofield

@@ -31,10 +31,11 @@ class Table {
   }
   std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
 
-  // By the name: *.npy is a NumPy array [rows] of structures, with a float32 field a column of numbers and without the
-  // columns of texts, so that the fields keep their names; *.json an object of arrays by column, infinities null;
-  // anything else text with a header, nine significant digits each, which give a float32 back to the bit. Does not
-  // commit the file.
+  // Writes the table in the format that the name's ending tells; does not commit the file.
+  //  - .npy: a NumPy array [rows] of structures, which have a float32 field for each column of numbers, under its name.
+  //    Columns of texts are left out.
+  //  - .json: an object with an array for each column; infinities are null.
+  //  - Others: text with a header. Numbers have nine significant digits, which give a float32 back to the bit.
   absl::Status write(const std::string& path, OutputFile& file) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace isofield {
 
-// Points in a text, as open_points() describes them.
+// Reads points from a text, as open_points() describes.
 class TextPoints : public PointReader {
  public:
   TextPoints(InputFile file, const VectorColumns& wanted) : lines_(std::move(file)), wanted_(wanted) {}
@@ -17,14 +17,14 @@ class TextPoints : public PointReader {
   std::vector<std::string> notes() const override;
 
  private:
-  // Reads up to the first row, which `line` is then; false: there is none.
+  // Reads up to the first row, and sets `line` to it. False: there is no row.
   absl::StatusOr<bool> read_head(absl::string_view& line);
   absl::Status choose_columns(const class TableHead& head, absl::string_view row);
   absl::Status parse(absl::string_view line, std::vector<float>& xyz);
 
   FileLines lines_;
   const VectorColumns wanted_;
-  std::optional<RowNumbers> numbers_;  // once the head is read
+  std::optional<RowNumbers> numbers_;  // empty until the head is read
   bool has_distance_ = false;
   std::string note_;
   std::size_t missed_ = 0;

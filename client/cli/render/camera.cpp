@@ -15,7 +15,7 @@ Vector to_vector(const std::array<double, 3>& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-// Of degrees; exact at right angles.
+// The cosine of an angle in degrees, which is exactly 0 at right angles.
 double cosine(double degrees) {
   return std::fmod(degrees, 180) == 90 || std::fmod(degrees, 180) == -90 ? 0 : std::cos(degrees * kRadians);
 }
@@ -26,7 +26,7 @@ struct Extremes {
   float right = kLeast, left = kLeast, up = kLeast, down = kLeast, nearest = kLeast, farthest = kLeast;
 };
 
-// About `center`, in axes parallel to the camera's.
+// The extremes of the positions about `center`, in axes parallel to the camera's.
 Extremes extremes_of(std::span<const float> positions, const Camera& camera, const Vector& center, float tan_x,
                      float tan_y) {
   Extremes most;
@@ -72,7 +72,7 @@ void View::turn_to(double azimuth, double elevation) {
   const double level = cosine(elevation), rise = cosine(elevation - 90);
   const double right = cosine(azimuth - 90), front = cosine(azimuth);
   direction = {0 - right * level, 0 - rise, 0 - front * level};
-  // From straight above the front is at the bottom of the picture.
+  // In a picture from straight above, the front is at the bottom.
   up = level == 0 ? std::array{0 - rise * right, 0.0, 0 - rise * front} : std::array{0.0, 1.0, 0.0};
 }
 

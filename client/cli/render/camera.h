@@ -10,21 +10,21 @@ namespace isofield {
 
 // From where a picture is taken. Model space is right-handed with y up, as glTF has it; lengths are in model units.
 struct View {
-  // Looks from a side: azimuth in degrees around y, 0 from the front (along -z), 90 from the right side (along -x);
-  // elevation in degrees above the horizon, within [-90, 90].
+  // A view from a side. The azimuth is in degrees around y: 0 looks from the front (along -z), 90 from the right (along
+  // -x). The elevation is in degrees above the horizon, within [-90, 90].
   static View from(double azimuth, double elevation);
-  // Looks from there, and keeps everything else.
+  // Sets direction and up to look from there, and keeps everything else.
   void turn_to(double azimuth, double elevation);
 
-  // In which the camera looks, of any length but 0.
+  // The direction in which the camera looks, of any length but 0.
   std::array<double, 3> direction = from(35, 20).direction;
-  // What is upwards in the picture; not parallel to the direction.
+  // The direction that is upwards in the picture; not parallel to `direction`.
   std::array<double, 3> up = {0, 1, 0};
   // Degrees, within [1, 150]: the whole opening angle along the picture's shorter edge. Some perspective, little
   // distortion.
   double field_of_view = 28;
-  // The point that the camera looks at, and how far it is from the camera. Without them they are so that the picture is
-  // filled by the model.
+  // The point that the camera looks at, and its distance from the camera. Where they are left out, they are chosen so
+  // that the model fills the picture.
   std::optional<std::array<double, 3>> target;
   std::optional<double> distance;
 
@@ -48,8 +48,8 @@ struct Camera {
   }
 };
 
-// The camera of a view. Where the view leaves it open, it is the nearest one whose picture (width / height = aspect)
-// holds all positions ([n, 3], n >= 1) with a margin around them.
+// The camera of a view. What the view leaves open is chosen so that the camera is as near as possible while its picture
+// (width / height = aspect) holds all positions ([n, 3], n >= 1) with a margin around them.
 Camera fit_camera(std::span<const float> positions, const View& view, double aspect);
 
 }  // namespace isofield

@@ -9,17 +9,18 @@
 namespace isofield {
 namespace {
 
-// Of the distance to what the camera looks at: what is nearer, or behind the camera, is not drawn.
+// The least depth that is drawn, as a part of the camera's distance from its target.
 constexpr float kNearest = 1e-3f;
 
-// A vertex on the picture: x, y in samples, and 1 / depth, which is linear there; its normal in camera space. Without a
-// depth: it is too near.
+// A vertex on the picture: x and y in samples, and 1 / depth, which is linear on the picture; its normal is in camera
+// space. inverse_depth is 0 where the vertex is too near to be drawn.
 struct Corner {
   float x = 0, y = 0, inverse_depth = 0;
   Vector normal;
 };
 
-// The whole number at or above x, which may be far outside of the picture.
+// Round x up or down to a whole number, within [0, most] and [-1, most]. x may be far outside of the picture, where a
+// conversion to int would be undefined.
 int ceiling(float x, int most) {
   return static_cast<int>(std::ceil(std::clamp(x, 0.0f, static_cast<float>(most))));
 }
@@ -49,7 +50,7 @@ std::int16_t pack(float component) {
   return static_cast<std::int16_t>(std::lround(component * 32767));
 }
 
-// Draws into the rows [first, last).
+// Draws triangles into the rows [first, last) of the picture.
 class Painter {
  public:
   Painter(Visibility& seen, int first, int last) : seen_(seen), first_row_(first), last_row_(last - 1) {}

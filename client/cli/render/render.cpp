@@ -143,7 +143,7 @@ Image paint(const Visibility& seen, const std::vector<float>& sky_seen, const Ca
   return image;
 }
 
-// The number of the fewest digits that is this float32: what a person would write.
+// The decimal number with the fewest digits that rounds to this float32, as a person would write it.
 double decimal(float value) {
   char digits[32];
   double number = value;

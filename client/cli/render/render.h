@@ -20,8 +20,8 @@ struct RenderOptions {
 // INVALID_ARGUMENT: a mesh without normals, or an option out of its range.
 absl::StatusOr<Image> render(const Mesh& mesh, const RenderOptions& options);
 
-// The view with its target and distance, as render() chooses them where it states none: with it the picture is the
-// same, and of another mesh taken from the same place. An empty mesh leaves them out.
+// The view with the target and distance that render() chooses where the view states none. It gives the same picture of
+// this mesh, and a picture of another mesh from the same place. For an empty mesh they stay open.
 View fit_view(const Mesh& mesh, const View& view, const RenderOptions& options);
 
 }  // namespace isofield

@@ -110,7 +110,7 @@ absl::StatusOr<std::optional<View>> read_view_file(const std::string& path) {
   Struct object;
   const auto parsed = google::protobuf::util::JsonStringToMessage(*text, &object);
   if (!parsed.ok()) {
-    // Of three lines, of which two point into the text.
+    // Only the first of the message's three lines is repeated; the others point into the text.
     const std::string reason = parsed.message().ToString();
     return absl::InvalidArgumentError(absl::StrCat(path, ": not a view in JSON: ", reason.substr(0, reason.find('\n')),
                                                    "; mend it, or delete it to begin anew"));

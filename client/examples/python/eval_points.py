@@ -50,7 +50,8 @@ def evaluate(fields, scene, points):
         for start in range(0, len(points), CHUNK):
             yield field_service_pb2.EvaluateStreamRequest(points=tensor(points[start : start + CHUNK]))
 
-    # A chunk is answered by one message, or by several in order where it is large: joined they are the points' results.
+    # The server answers a small chunk by one message and a large one by several, in order. Joined, they are the results
+    # of all points.
     answers = [array(answer.result) for answer in fields.EvaluateStream(requests())]
     return np.concatenate(answers) if answers else np.empty((0, 4), "<f4")
 
@@ -65,7 +66,7 @@ def main():
     text = open(arguments.scene, encoding="utf-8").read() if arguments.scene else EXAMPLE
     scene = scene_pb2.SceneRef(inline=json_format.Parse(text, scene_pb2.Scene()))
     points = np.random.default_rng(1).uniform(-2, 2, (arguments.points, 3))
-    # The default limit of gRPC for received messages is 4 MiB; the server's streams keep below it.
+    # gRPC limits received messages to 4 MiB by default, and the server's streams stay below that.
     with grpc.insecure_channel(arguments.server) as channel:
         fields = field_service_pb2_grpc.FieldServiceStub(channel)
         start = time.perf_counter()

@@ -101,7 +101,8 @@ struct Slice {
   std::vector<float> values;
   // One for each level asked for; of none, that of the surface.
   std::vector<LevelCurves> curves;
-  // The axes taken: unit vectors. The first sample, and the samples' distances along u and v; model units.
+  // The axes that are used, as unit vectors; the first sample, and the samples' distances along u and v, in model
+  // units.
   std::array<double, 3> u{}, v{}, origin{};
   std::array<double, 2> spacing{};
 };
@@ -128,7 +129,7 @@ class Client {
   // Stores a scene, replacing one of that name. The second form may state a condition (scene_service.proto).
   absl::StatusOr<v1::SceneSummary> put_scene(const std::string& name, v1::Scene scene);
   absl::StatusOr<v1::SceneSummary> put_scene(const v1::PutSceneRequest& request);
-  // Scenes of any size: it is received in parts.
+  // Takes scenes of any size, since they are received in parts.
   absl::StatusOr<v1::GetSceneResponse> get_scene(const std::string& name);
   // By name.
   absl::StatusOr<std::vector<v1::SceneSummary>> list_scenes();
@@ -162,8 +163,8 @@ class Client {
   // Fills an empty vector with the [n, 3] coordinates of the next chunk, 0 <= n <= kChunkPoints; n = 0 ends the
   // stream. Called on a thread of the client's own, while results are read. An error ends the evaluation with it.
   using PointSource = std::function<absl::Status(std::vector<float>& xyz)>;
-  // Takes a chunk's coordinates and results ([n, 1] or [n, 4]), in the order sent, on the caller's thread; in several
-  // calls where the server answers a chunk in parts. An error ends the evaluation with it.
+  // Takes a chunk's coordinates and results ([n, 1] or [n, 4]) in the order sent, on the caller's thread. Where the
+  // server answers a chunk in parts, there is a call for each part. An error ends the evaluation, which returns it.
   using ResultSink = std::function<absl::Status(std::span<const float> xyz, std::span<const float> results)>;
   // Evaluates any number of points with bounded memory: reading and writing overlap. Not retried.
   absl::Status evaluate(const v1::SceneRef& scene, bool gradient, const PointSource& source, const ResultSink& sink);
@@ -173,7 +174,7 @@ class Client {
                                      const std::array<double, 3>& spacing, const std::array<std::uint64_t, 3>& counts,
                                      bool gradient);
 
-  // Called on the caller's thread with how much is done, and with what the server is at; false cancels the mesh.
+  // Called on the caller's thread with the part of the work that is done and the present stage; false cancels the mesh.
   using Progress = std::function<bool(const v1::MeshProgress& progress)>;
   absl::StatusOr<Mesh> mesh(const v1::MeshRequest& request, const Progress& progress = {});
   // That mesh, or a part of it, by bricks: parts, of several servers if need be, join to the bytes of the whole.

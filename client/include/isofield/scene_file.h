@@ -9,8 +9,8 @@
 
 namespace isofield {
 
-// Scenes on disk: proto3 JSON, or the binary message (.pb); either packed by gzip too (.json.gz). What begins as a JSON
-// object is JSON whatever its name is.
+// Scenes on disk are proto3 JSON or the binary message (.pb), and may be packed by gzip (.json.gz). A file that begins
+// like a JSON object is JSON, whatever its name is.
 
 // INVALID_ARGUMENT: not a scene; the message names the file, the place and what is wrong there.
 // NOT_FOUND, PERMISSION_DENIED ...: the file cannot be read.
@@ -22,9 +22,9 @@ absl::StatusOr<v1::Scene> parse_scene_json(const std::string& json, const std::s
 // Proto3 JSON with a node a line, fields named as in scene.proto.
 absl::StatusOr<std::string> format_scene_json(const v1::Scene& scene);
 
-// The whole of a file, as bytes; unpacked, where its first bytes say that it is a gzip file, whatever its name is.
-// NOT_FOUND, PERMISSION_DENIED ...: it cannot be read. INVALID_ARGUMENT: it is a damaged gzip file. RESOURCE_EXHAUSTED:
-// it holds more than 4 GiB when unpacked.
+// Reads all bytes of a file. A file whose first bytes are those of gzip is unpacked, whatever its name is. NOT_FOUND,
+// PERMISSION_DENIED ...: it cannot be read. INVALID_ARGUMENT: it is a damaged gzip file. RESOURCE_EXHAUSTED: it holds
+// more than 4 GiB when unpacked.
 absl::StatusOr<std::string> read_file(const std::string& path);
 
 }  // namespace isofield

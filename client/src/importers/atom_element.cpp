@@ -23,7 +23,7 @@ std::string upper(absl::string_view text) {
   return absl::AsciiStrToUpper(absl::StripAsciiWhitespace(text));
 }
 
-// The letters that a name begins with, after digits and primes.
+// The first run of letters in a name; digits and primes may stand before it.
 absl::string_view leading_letters(absl::string_view name) {
   const auto letter = [](unsigned char c) { return absl::ascii_isalpha(c); };
   const auto begin = std::find_if(name.begin(), name.end(), letter);
@@ -43,10 +43,10 @@ bool is_polymer(const gemmi::ResidueInfo& info) {
 constexpr std::array<absl::string_view, 13> kHeavySymbols = {"CL", "CO", "CR", "CU", "NI", "PD", "PT",
                                                              "SC", "SE", "SI", "SM", "SN", "SR"};
 
-// What programs write for points without an atom: dummies, ghosts and lone pairs. In capitals.
+// Names, in capitals, that programs give to points without an atom: dummies, ghosts and lone pairs.
 constexpr std::array<absl::string_view, 5> kNoAtoms = {"BQ", "DU", "DUM", "LP", "XX"};
 
-// The letters in capitals.
+// The lightest element that a name may mean, by its letters in capitals: "CA" is carbon. Null where there is none.
 const Element* lightest(absl::string_view letters) {
   if (letters.empty() || is_one_of(letters, kNoAtoms)) return nullptr;
   const bool light = absl::string_view("CNOHSPD").find(letters[0]) != absl::string_view::npos;
@@ -63,11 +63,12 @@ const Element* element_in_polymer(absl::string_view letters, const gemmi::Residu
   if (absl::string_view("CNOSPHD").find(letters[0]) != absl::string_view::npos) {
     return find_element(letters.substr(0, 1));
   }
-  // Modified residues may hold others: bromine in BRU.
+  // Modified residues may hold other elements, such as the bromine in BRU.
   return info.is_standard() ? nullptr : lightest(letters);
 }
 
-// An atom that is its whole residue has its residue's name: "CA" in "CA", "ZN" in "ZN2", "NA" in "NA+"; or CHARMM's.
+// An ion, which is the only atom of its residue, has its residue's name: "CA" in "CA", "ZN" in "ZN2", "NA" in "NA+".
+// The names that CHARMM gives to ions are known too. Null where the atom is no ion.
 const Element* element_of_ion(absl::string_view letters, absl::string_view residue) {
   constexpr std::array<std::pair<absl::string_view, absl::string_view>, 9> kCharmm = {{{"SOD", "NA"},
                                                                                        {"CLA", "CL"},
@@ -86,7 +87,7 @@ const Element* element_of_ion(absl::string_view letters, absl::string_view resid
   return find_element(letters);
 }
 
-// Name of four columns, in capitals.
+// The element of a name by its four columns, in capitals, as NameColumns::kRightJustified says.
 const Element* element_of_columns(absl::string_view name, absl::string_view letters) {
   const bool full = !absl::ascii_isspace(static_cast<unsigned char>(name[3]));
   if (!full && absl::ascii_isalpha(static_cast<unsigned char>(name[0]))) {
@@ -95,7 +96,7 @@ const Element* element_of_columns(absl::string_view name, absl::string_view lett
   return lightest(letters);
 }
 
-// "+", "2-", "3+", "+2"
+// True for the charge of an ion, such as "+", "2-", "3+" or "+2".
 bool is_charge(absl::string_view suffix) {
   return suffix.find_first_of("+-") != absl::string_view::npos &&
          suffix.find_first_not_of("+-0123456789") == absl::string_view::npos;

@@ -5,9 +5,8 @@
 #include <exception>
 #include <gemmi/cif.hpp>
 #include <gemmi/json.hpp>
-#include <utility>
 
-// The only file that holds these two readers, which take seconds to compile.
+// gemmi's two readers take seconds to compile, so only this file includes them.
 
 namespace isofield {
 namespace {

@@ -7,7 +7,8 @@
 
 namespace isofield {
 
-// The values of a CIF or mmJSON text. INVALID_ARGUMENT: it is not one; the message has the line.
+// These read the values of a CIF or an mmJSON text. INVALID_ARGUMENT: the text is none; of CIF the message states the
+// line.
 absl::StatusOr<gemmi::cif::Document> read_cif(const std::string& text);
 absl::StatusOr<gemmi::cif::Document> read_mmjson(std::string text);
 

@@ -25,7 +25,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-// Values in a line; kDamaged: a quote that does not end, or what cannot stand in CIF.
+// Counts the values in a line. kDamaged: a quote does not end, or the line has what CIF does not allow there.
 int count_values(absl::string_view line) {
   int values = 0;
   std::size_t at = 0;
@@ -67,7 +67,7 @@ class CifMender {
  private:
   enum class Place { kElsewhere, kText, kLoop, kAtomTags, kAtoms };
 
-  // Whether the line stays; moves along the file.
+  // True where the line stays. Notes which part of the file the next line belongs to.
   bool keeps(absl::string_view line, std::size_t number) {
     const bool begins_text = absl::StartsWith(line, ";");
     const absl::string_view content = absl::StripAsciiWhitespace(line);

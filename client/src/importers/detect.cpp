@@ -20,7 +20,8 @@
 namespace isofield {
 namespace {
 
-// The part of a text that is looked at; PDB files may have long headers, but say so in their first line.
+// Bytes and rows of a text that are looked at. PDB files may have longer headers, but their first line tells the
+// format.
 constexpr std::size_t kLookedAt = 1 << 16;
 constexpr std::size_t kRowsLookedAt = 200;
 
@@ -32,14 +33,14 @@ absl::Status refuse(const std::string& name, absl::string_view what) {
 }
 
 bool is_text(absl::string_view bytes) {
-  // Old systems end texts with 0x1A.
+  // Some old systems end texts with the byte 0x1A.
   return std::none_of(bytes.begin(), bytes.end(), [](char c) {
     const auto code = static_cast<unsigned char>(c);
     return (code < 0x20 && !absl::ascii_isspace(code) && code != 0x1A) || code == 0x7F;
   });
 }
 
-// 80 bytes of any text, a count, and 50 bytes for each triangle.
+// A binary STL file has 80 bytes of any text, a count, and 50 bytes for each triangle.
 bool is_binary_stl(const std::string& content) {
   std::uint32_t triangles = 0;
   if (content.size() < 84) return false;
@@ -47,7 +48,7 @@ bool is_binary_stl(const std::string& content) {
   return content.size() == 84 + 50 * std::uint64_t{triangles};
 }
 
-// Few texts parse as a message, and those have fields that no scene has.
+// Few texts parse as a message by accident, and those that do have fields that no scene has.
 bool is_scene_message(const std::string& content) {
   v1::Scene scene;
   if (!scene.ParseFromString(content)) return false;
@@ -77,8 +78,8 @@ bool is_pdb_record(absl::string_view line) {
   return false;
 }
 
-// Tells XYZ's molecules, "count, comment, lines of: element x y z", and Tinker's, "count title, lines of: index element
-// x y z ...", from points after a count.
+// Tells molecules from points that follow a count: XYZ has "count, comment, lines of: element x y z", and Tinker has
+// "count title, lines of: index element x y z ...". Nothing where the text begins with no count or holds points.
 std::optional<FileKind> kind_by_count(absl::string_view text) {
   LineReader lines(text);
   absl::string_view count, second, third;
@@ -97,7 +98,7 @@ std::optional<FileKind> kind_by_count(absl::string_view text) {
   const bool has_third = lines.next(third);
   // A line with the edges of a periodic box may come first.
   if (is_tinker(second) || (has_third && is_tinker(third))) return FileKind::kXyz;
-  // Words may follow the count, and a blank line, where an atom follows the comment.
+  // Words or a blank line may follow the count, provided that an atom follows the comment.
   const auto is_atom = [&](absl::string_view text_line) {
     const auto atom = split_fields(text_line);
     return !atom.empty() && names_element(atom[0]) && are_numbers(atom, 1, 3);
@@ -109,13 +110,13 @@ std::optional<FileKind> kind_by_count(absl::string_view text) {
   if (fields.size() > 1) return std::nullopt;
   if (!has_third) return FileKind::kXyz;
   const auto element = split_fields(third);
-  // Elements may be numbers, and columns may come in another order; points have numbers in their second line, too.
+  // Elements may be numbers, and columns may come in another order. Points have numbers in their second line too.
   if (element.size() >= 4 && (!is_number(element[0]) || !are_numbers(split_fields(second), 0, 3)))
     return FileKind::kXyz;
   return std::nullopt;
 }
 
-// Samples whose ids differ, with a root, and parents among the ids.
+// True where most lines are samples of different ids, one of which is a root and most of which have a known parent.
 bool is_swc(absl::string_view text) {
   LineReader lines(text);
   absl::string_view line;
@@ -131,7 +132,7 @@ bool is_swc(absl::string_view text) {
       samples.push_back(*sample);
     }
   }
-  // What comes after the part that is looked at may hold parents of these; lines of rubbish do occur.
+  // Parents may come after the part that is looked at, and files may hold some damaged lines.
   std::size_t linked = 0;
   for (const SwcRow& sample : samples) linked += sample.is_root || ids.contains(sample.parent) ? 1 : 0;
   const bool has_root =
@@ -154,7 +155,7 @@ bool has_points(absl::string_view text) {
     }
     if (numbers >= 3) return true;
   }
-  // A table without rows is one of no points.
+  // A header without rows is a table of no points.
   return !head.names().empty() && find_vector(head.names(), VectorRole::kPosition).ok();
 }
 
@@ -170,7 +171,7 @@ std::optional<FileKind> kind_by_text(absl::string_view text) {
   return std::nullopt;
 }
 
-// mmCIF in JSON: an object of data blocks, "data_NAME".
+// mmCIF in JSON is an object whose first key is a data block, "data_NAME".
 bool is_mmjson(absl::string_view json) {
   json.remove_prefix(std::min(json.find('{') + 1, json.size()));
   return absl::StartsWith(absl::StripLeadingAsciiWhitespace(json), "\"data_");
@@ -195,7 +196,7 @@ FileKind kind_of(ImportFormat format) {
 }  // namespace
 
 absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::string& path) {
-  // What was packed is named after what it holds.
+  // A packed file is named after the file that it holds.
   const std::string name(absl::StripSuffix(path, ".gz"));
   if (is_json(content)) return is_mmjson(content) ? FileKind::kMmcif : FileKind::kSceneJson;
   const bool is_named_message = absl::EndsWithIgnoreCase(name, ".pb");
@@ -212,7 +213,8 @@ absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::stri
   }
   if (const auto kind = kind_by_text(start)) return *kind;
   if (const auto what = foreign_text(start); !what.empty()) return refuse(path, what);
-  // A molecule's or neuron's reader says best what is wrong with a file of its name, but for points in a .xyz file.
+  // The reader of a molecule or a neuron can say best what is wrong with a file of its name. A .xyz file may hold
+  // points.
   if (by_name && by_name != ImportFormat::kXyz) return kind_of(*by_name);
   if (has_points(start)) return FileKind::kPoints;
   if (by_name) return kind_of(*by_name);

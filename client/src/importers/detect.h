@@ -8,15 +8,15 @@
 
 namespace isofield {
 
-// What the readers take. A scene is JSON or a binary message.
+// The kinds of files that can be read. A scene is JSON or a binary message.
 enum class FileKind { kSceneJson, kSceneMessage, kSwc, kPdb, kMmcif, kXyz, kPoints };
 
-// What a file holds. By its content where that is plain (molecules, neurons, scenes, and what cannot be read); where
-// more than one reader could take it, by the ending of its name; else by the content alone: a line of three numbers
-// makes points.
+// Tells what a file holds. The content decides where it is unmistakable (molecules, neurons, scenes and files that
+// cannot be read). Where more than one reader could take it, the ending of its name decides. Where the ending says
+// nothing either, a line of three numbers makes it points.
 //
-// INVALID_ARGUMENT: nothing that isofield reads; the message says what it is, where that is known, and what can be
-// read.
+// INVALID_ARGUMENT: isofield cannot read the file; the message says what the file is, where that is known, and what can
+// be read.
 absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::string& path);
 
 }  // namespace isofield

@@ -17,7 +17,7 @@ struct Element {
 // Of elements without a radius.
 inline constexpr double kUnknownElementRadius = 2.0;
 
-// By symbol, in any case. D and T, deuterium and tritium, are H. Null: no such element.
+// The element of a symbol in any case; D and T (deuterium and tritium) are H. Null: there is no such element.
 const Element* find_element(absl::string_view symbol);
 // By atomic number, from 1.
 const Element* find_element(long long number);

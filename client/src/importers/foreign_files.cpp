@@ -1,10 +1,8 @@
 #include "importers/foreign_files.h"
 
-#include <absl/strings/ascii.h>
 #include <absl/strings/match.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "importers/text.h"
 #include "tables/number.h"
@@ -13,7 +11,7 @@ namespace isofield {
 namespace {
 
 struct Magic {
-  // The bytes may hold zeros.
+  // The length comes from the array, since the bytes may hold zeros.
   template <std::size_t N>
   constexpr Magic(const char (&text)[N], const char* what, std::size_t offset = 0)
       : bytes(text, N - 1), what(what), offset(offset) {}
@@ -72,14 +70,14 @@ constexpr Magic kTexts[] = {
 absl::string_view find(absl::string_view start, const Magic* begin, const Magic* end) {
   const bool has_zero = start.substr(0, 512).find('\0') != absl::string_view::npos;
   const Magic* const found = std::find_if(begin, end, [&](const Magic& magic) {
-    // Beyond its start a text may hold anything.
+    // A text may hold these bytes by chance beyond its start; only binary files have zeros.
     if (magic.offset > 0 && (start.size() <= magic.offset || !has_zero)) return false;
     return absl::StartsWith(start.substr(magic.offset), magic.bytes);
   });
   return found == end ? absl::string_view() : found->what;
 }
 
-// "v 1 2 3": OBJ's vertices.
+// True for a line such as "v 1 2 3", a vertex of OBJ.
 bool is_keyword_and_numbers(absl::string_view line, absl::string_view keyword) {
   const auto fields = split_fields(line);
   if (fields.size() < 4 || fields[0] != keyword) return false;

@@ -15,7 +15,7 @@
 namespace isofield {
 namespace {
 
-// Nothing: a scene.
+// The importer of a kind of file; nothing for scenes, which need none.
 std::optional<ImportFormat> format_of(FileKind kind) {
   switch (kind) {
     case FileKind::kSceneJson:
@@ -38,9 +38,9 @@ std::optional<ImportFormat> format_of(FileKind kind) {
 }  // namespace
 
 std::optional<ImportFormat> import_format(const std::string& path) {
-  // A packed file is of the format that it unpacks to.
-  const absl::string_view name = absl::EndsWithIgnoreCase(path, ".gz") ? absl::string_view(path).substr(0, path.size() - 3)
-                                                                       : absl::string_view(path);
+  // A packed file has the format of what it unpacks to.
+  absl::string_view name = path;
+  if (absl::EndsWithIgnoreCase(name, ".gz")) name.remove_suffix(3);
   constexpr std::array<std::pair<const char*, ImportFormat>, 8> kExtensions = {{{".swc", ImportFormat::kSwc},
                                                                                 {".eswc", ImportFormat::kSwc},
                                                                                 {".pdb", ImportFormat::kPdb},

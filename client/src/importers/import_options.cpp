@@ -42,7 +42,7 @@ absl::Status check(const ImportOptions& options) {
 
 double range_of(const ImportOptions& options, double factor, double radius) {
   const double range = options.range.value_or(options.range_factor.value_or(factor) * radius);
-  // The server checks the product with a placement's scale, which rounding takes above 1.
+  // The server multiplies this by the scale of the transform above it, which rounding may take above 1.
   return std::clamp(range, kLeastLength, kLargestLength * (1 - 1e-6));
 }
 

@@ -23,7 +23,7 @@ namespace isofield {
 namespace {
 
 constexpr char kCategory[] = "_atom_site.";
-// Tags as gemmi takes them: "?" stands before those that may be missing.
+// Tags in gemmi's form: "?" stands before those that may be missing. Their order is that of Column.
 const std::vector<std::string> kTags = {
     "Cartn_x",       "Cartn_y",        "Cartn_z",       "?id",             "?pdbx_PDB_model_num", "?type_symbol",
     "?occupancy",    "?label_alt_id",  "?auth_asym_id", "?label_asym_id",  "?auth_comp_id",       "?label_comp_id",
@@ -34,7 +34,7 @@ enum Column {
   kAuthorNumber, kNumber, kAuthorName, kName, kInsertion
 };
 
-// A value as text: without its quotes, empty where the file says "?" or ".".
+// A value without its quotes. It is empty where the file says "?" (unknown) or "." (not applicable).
 absl::string_view text_of(const std::string& value) {
   if (gemmi::cif::is_null(value)) return {};
   absl::string_view text = value;
@@ -42,13 +42,13 @@ absl::string_view text_of(const std::string& value) {
   return text;
 }
 
-// The atoms of a block, whose columns may stand in any order and of which only the coordinates must be there.
+// The atoms of a data block. The columns may stand in any order, and only those of the coordinates must be there.
 class AtomTable {
  public:
   AtomTable(gemmi::cif::Block& block, const CifLines& lines, ImportReport& report)
       : table_(block.find(kCategory, kTags)), lines_(lines), report_(report) {}
 
-  // Models by their place: those with distinct names, in the order of their first atoms.
+  // Counts the models, which differ in name, and numbers them from 1 in the order of their first atoms.
   int count_models() {
     absl::flat_hash_map<absl::string_view, int> models;
     for (const auto row : table_) {
@@ -86,7 +86,7 @@ class AtomTable {
   static absl::string_view value(const Row& row, int column) {
     return row.has(column) ? text_of(row[column]) : absl::string_view();
   }
-  // The author's name of a thing, as PDB files have it, before the archive's.
+  // The name that the author gave, which PDB files have too; where it is missing, the archive's own name.
   static absl::string_view either(const Row& row, int author, int archive) {
     const absl::string_view name = value(row, author);
     return name.empty() ? value(row, archive) : name;
@@ -132,7 +132,7 @@ gemmi::cif::Block* block_of_atoms(gemmi::cif::Document& document) {
   return nullptr;
 }
 
-// Why a CIF without Cartesian coordinates is none of ours.
+// The error for a CIF without Cartesian coordinates.
 absl::Status no_atoms(gemmi::cif::Document& document) {
   for (gemmi::cif::Block& block : document.blocks) {
     if (block.find_values("_atom_site_fract_x") || block.find_values("_atom_site.fract_x")) {

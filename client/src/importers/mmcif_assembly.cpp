@@ -15,7 +15,7 @@ constexpr std::size_t kMostOperators = 100'000;
 
 using Motions = absl::flat_hash_map<std::string, RigidMotion>;
 
-// "a,b" and "1-60", without brackets.
+// Expands a list without brackets, such as "a,b" or "1-60". False: a range descends, or there are too many names.
 bool expand_list(absl::string_view list, std::vector<std::string>& names) {
   for (const absl::string_view item : absl::StrSplit(list, ',')) {
     if (names.size() > kMostOperators) return false;
@@ -113,7 +113,8 @@ std::vector<Assembly> read_assemblies(gemmi::cif::Block& block) {
       part.chains.emplace_back(absl::StripAsciiWhitespace(chain));
     }
     const auto products = expand_operators(row.str(1));
-    // A motion that is no rotation: the assembly is refused where it is asked for.
+    // An operator that cannot be read becomes a motion that is no rotation, for which add_molecule() refuses the
+    // assembly. Files whose other assemblies are asked for are read all the same.
     if (!products.ok()) part.motions.push_back(RigidMotion());
     if (!products.ok()) continue;
     for (const auto& factors : *products) part.motions.push_back(motion_of(factors, motions).value_or(RigidMotion()));

@@ -10,13 +10,13 @@
 
 namespace isofield {
 
-// The assemblies that a block of mmCIF describes. gemmi's own reader leaves out products of operators, as capsids have
-// them, and assemblies whose description it does not know.
+// The assemblies that a block of mmCIF describes. gemmi's own reader is not used, since it leaves out products of
+// operators, which capsids have, and assemblies whose description it does not know.
 std::vector<Assembly> read_assemblies(gemmi::cif::Block& block);
 
-// The names of an operator expression such as "1,2", "(1-60)" or "(X0)(1-5)"; of each product, in the order in which
-// its factors stand: the last one is applied first. INVALID_ARGUMENT: brackets do not match, or there are more than
-// 100,000.
+// Expands an operator expression such as "1,2", "(1-60)" or "(X0)(1-5)" into products. Each product is a list of
+// operators' names in the order of the expression; the last one is applied first. INVALID_ARGUMENT: a bracket is not
+// closed, a range descends, or there are more than 100,000 products.
 absl::StatusOr<std::vector<std::vector<std::string>>> expand_operators(absl::string_view expression);
 
 }  // namespace isofield

@@ -16,10 +16,11 @@ namespace {
 
 // Without ImportOptions::range_factor.
 constexpr double kRangeFactor = 0.5;
-// Beyond this a scene is larger than any daemon takes; it bounds what a damaged list of operators can ask for.
+// No daemon takes a scene of so many atoms. The limit bounds what a damaged list of operators can ask for.
 constexpr std::size_t kMostAtoms = 50'000'000;
 
-// Dots separate names from fields in edits, a leading '#' stands for an index, and a scene is UTF-8.
+// "CHAIN/RESIDUE/ATOM". In edits a dot ends a node's name and a leading '#' stands for an index, and strings of a scene
+// are UTF-8: characters that could break this become '_'.
 std::string node_name(const MoleculeAtom& atom, int copy) {
   std::string chain(atom.chain);
   if (copy > 1) absl::StrAppend(&chain, "-", copy);
@@ -42,7 +43,7 @@ std::array<double, 3> moved(const RigidMotion& motion, const std::array<double, 
 }
 
 bool is_rigid(const RigidMotion& motion) {
-  // Files have six decimals at least.
+  // Files state matrices with at least six decimals.
   constexpr double kTolerance = 0.01;
   for (int i = 0; i < 3; ++i) {
     if (!std::isfinite(motion.shift[i])) return false;
@@ -74,7 +75,7 @@ class AtomAdder {
 using Atoms = std::vector<const MoleculeAtom*>;
 using AtomsByChain = absl::flat_hash_map<absl::string_view, Atoms>;
 
-// Those chains of a part that have atoms, each once.
+// The chains of a part that have atoms, each of them once.
 std::vector<absl::string_view> present_chains(const Assembly::Part& part, const AtomsByChain& atoms) {
   std::vector<absl::string_view> chains;
   absl::flat_hash_set<absl::string_view> seen;

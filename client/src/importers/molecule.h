@@ -24,30 +24,32 @@ struct AtomSource {
 v1::Node& add_atom(const Element* element, const std::array<double, 3>& center, const AtomSource& source,
                    const ImportOptions& options, Imported& imported);
 
-// True, with a note, where ImportOptions::keep_hydrogens leaves this element out.
+// Returns true and notes it where the element is hydrogen and ImportOptions::keep_hydrogens is false.
 bool leave_out_hydrogen(const Element* element, const AtomSource& source, const ImportOptions& options,
                         ImportReport& report);
 
-// An atom of a macromolecule. All views are into texts that outlive it, and empty where the file says nothing.
+// An atom of a macromolecule. The views refer to texts that outlive it; they are empty where the file says nothing.
 struct MoleculeAtom {
-  // Null: unknown.
+  // Null where it is unknown.
   const Element* element = nullptr;
   std::array<double, 3> center{};
   absl::string_view chain;
-  // What the operators of assemblies are listed for: the chain in PDB, the smaller label_asym_id in mmCIF.
+  // The name by which assemblies refer to the chain. In PDB it is `chain`; in mmCIF it is label_asym_id, of which a
+  // chain may have several.
   absl::string_view assembly_chain;
-  // Such as "ALA".
+  // The name of its residue, such as "ALA".
   absl::string_view residue;
-  // With the insertion code: "17" or "17A".
+  // The number of its residue with the insertion code: "17" or "17A".
   absl::string_view number;
-  // Such as "CA".
+  // The atom's own name, such as "CA".
   absl::string_view name;
+  // The name of the alternate location that it belongs to, such as "A".
   absl::string_view altloc;
   double occupancy = 1;
   AtomSource source{};
 };
 
-// Rotates, then shifts; in angstrom.
+// A rotation followed by a shift in angstrom.
 struct RigidMotion {
   std::array<std::array<double, 3>, 3> rotation{};
   std::array<double, 3> shift{};
@@ -56,7 +58,7 @@ struct RigidMotion {
 // The copies of chains that make a biological assembly.
 struct Assembly {
   struct Part {
-    // By MoleculeAtom::assembly_chain.
+    // Names as in MoleculeAtom::assembly_chain. Each motion makes a copy of all these chains.
     std::vector<std::string> chains;
     std::vector<RigidMotion> motions;
   };
@@ -70,12 +72,14 @@ struct Molecule {
   std::vector<Assembly> assemblies;
 };
 
-// Adds the atoms that the options choose, named "CHAIN/RESIDUE/ATOM" where that is unique, and notes those that they
-// leave out. INVALID_ARGUMENT: the options name a chain, alternate location or assembly that the molecule lacks.
+// Adds the atoms that the options choose and notes those that they leave out. An atom is named "CHAIN/RESIDUE/ATOM"
+// where that is unique. INVALID_ARGUMENT: the options name a chain, alternate location or assembly that the molecule
+// lacks, or an assembly that has too many atoms or an operator that is no rigid motion.
 absl::Status add_molecule(const Molecule& molecule, const ImportOptions& options, Imported& imported);
 
 // Chooses a model (PDB, mmCIF) or frame (XYZ) by its place, counted from 1, and notes the choice where there are more
-// than one. INVALID_ARGUMENT: ImportOptions::frame is beyond the last. `kind` is the format's own word for a frame.
+// than one. `kind` is the format's own word, "model" or "frame". INVALID_ARGUMENT: ImportOptions::frame is beyond the
+// last one.
 absl::StatusOr<int> choose_frame(absl::string_view kind, int frames, const ImportOptions& options,
                                  ImportReport& report);
 

@@ -14,7 +14,7 @@
 namespace isofield {
 namespace {
 
-// Names in the order in which they were first seen, each once.
+// A list that keeps each name once, in the order of first use.
 class NameList {
  public:
   void add(absl::string_view name) {
@@ -53,7 +53,7 @@ absl::Status check_names(const Molecule& molecule, const ImportOptions& options)
   return absl::OkStatus();
 }
 
-// Which alternate location is taken of each residue. A residue is a chain and a number: where two kinds of residue
+// Chooses one alternate location for each residue. Chain and number identify a residue: where two kinds of residue
 // share one place, they are alternate locations of each other.
 class AltlocChoice {
  public:
@@ -61,7 +61,7 @@ class AltlocChoice {
     for (const MoleculeAtom& atom : molecule.atoms) {
       if (!atom.altloc.empty()) count(atom);
     }
-    // In the file's order, so that of equal occupancies the first is taken.
+    // The locations are in the file's order, so that the first one of equal occupancies is taken.
     for (const Location& location : locations_) {
       const Location*& chosen = chosen_[location.residue];
       if (!chosen || (chosen->name != options.altloc &&
@@ -74,13 +74,13 @@ class AltlocChoice {
   bool takes(const MoleculeAtom& atom) const {
     return atom.altloc.empty() || chosen_.at({atom.chain, atom.number})->name == atom.altloc;
   }
-  // The residue lacks the location that was asked for, so that another one stands in.
+  // True where an atom that is taken is of another location than the one asked for, which its residue lacks.
   static bool stands_in(const MoleculeAtom& atom, const ImportOptions& options) {
     return !atom.altloc.empty() && !options.altloc.empty() && atom.altloc != options.altloc;
   }
 
  private:
-  // Sums of equal occupancies differ by rounding.
+  // Means of equal occupancies differ by rounding.
   static constexpr double kTie = 1e-6;
   // Chain and number.
   using Residue = std::pair<absl::string_view, absl::string_view>;

@@ -8,12 +8,12 @@
 
 namespace isofield {
 
-// The atoms that the options choose, by chain, alternate location, water and hydrogen, in the file's order; notes those
-// that are left out. INVALID_ARGUMENT: no atom has a chain or the alternate location that the options name.
+// The atoms that the options choose by chain, alternate location, water and hydrogen, in the file's order. Atoms that
+// are left out are noted. INVALID_ARGUMENT: no atom has a chain or the alternate location that the options name.
 absl::StatusOr<std::vector<const MoleculeAtom*>> choose_atoms(const Molecule& molecule, const ImportOptions& options,
                                                               ImportReport& report);
 
-// Null: the options name none. INVALID_ARGUMENT: the molecule has none of that name.
+// The assembly that the options name; null where they name none. INVALID_ARGUMENT: the molecule has none of that name.
 absl::StatusOr<const Assembly*> choose_assembly(const Molecule& molecule, const ImportOptions& options);
 
 }  // namespace isofield

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kFirstCoordinate = 31;
 constexpr std::size_t kCoordinateWidth = 8;
 constexpr std::size_t kLastCoordinate = 54;
-// Of the decimal point in a coordinate of the format's own kind, "%8.3f".
+// The column of the decimal point within a coordinate that is written as the format demands, "%8.3f"; from 1.
 constexpr std::size_t kPointColumn = 5;
 
 bool is_blank_at(absl::string_view line, std::size_t column) {
@@ -32,7 +32,7 @@ int points_in_place(absl::string_view line) {
   return points;
 }
 
-// The reader knows no Fortran.
+// gemmi's reader does not know Fortran's exponents, such as "1.5D+03".
 bool is_number(absl::string_view field) {
   return parse_length(field).has_value() && field.find_first_of("dD") == field.npos;
 }
@@ -47,7 +47,7 @@ std::string without_tabs(absl::string_view line) {
   return result;
 }
 
-// Digits of the serial number that do not fit columns 7 to 11.
+// How many digits of the serial number do not fit columns 7 to 11.
 std::size_t excess_digits(absl::string_view line) {
   const absl::string_view serial = pdb_columns(line, 7, line.size());
   const std::size_t begin = std::min(serial.size(), serial.find_first_not_of(' '));
@@ -55,7 +55,7 @@ std::size_t excess_digits(absl::string_view line) {
   return begin == 0 && end > 5 ? end - 5 : 0;
 }
 
-// "17", "-3", "17A"; or with a chain before it, "A1000".
+// True for "17", "-3" and "17A", and for a number behind its chain, "A1000".
 bool is_residue_number(absl::string_view field) {
   if (!field.empty() && absl::ascii_isalpha(static_cast<unsigned char>(field.front()))) field.remove_prefix(1);
   if (!field.empty() && field.front() == '-') field.remove_prefix(1);
@@ -65,8 +65,9 @@ bool is_residue_number(absl::string_view field) {
          (rest.empty() || (rest.size() == 1 && absl::ascii_isalpha(static_cast<unsigned char>(rest[0]))));
 }
 
-// The fields in their order: record, serial number, name, residue, [chain], number, x, y, z, [occupancy, B, ...
-// element]. Of four numbers in a row it cannot be told whether a coordinate or a factor is missing.
+// Writes fields that blanks separate into their columns. Their order is: record, serial number, name, residue, [chain],
+// number, x, y, z, [occupancy, B, ... element]. Nothing where it is uncertain which field is which: of four numbers in
+// a row it cannot be told whether a coordinate or a factor is missing.
 std::optional<std::string> from_fields(absl::string_view line) {
   std::vector<absl::string_view> fields = split_fields(line);
   const auto has_point = [](absl::string_view field) {
@@ -96,7 +97,7 @@ std::optional<std::string> from_fields(absl::string_view line) {
     residue.remove_prefix(1);
   }
   absl::string_view element = numbers == 5 && fields.size() > end ? fields.back() : "";
-  // Else it is the name of a segment.
+  // A field that the atom's name does not begin with is the name of a segment, not an element.
   if (element.size() > 2 || !absl::StartsWithIgnoreCase(fields[2], element)) element = "";
   if (fields[2].size() > 4 || residue.size() > 3 || chain.size() > 1 || number.size() > 4) return std::nullopt;
   const std::string name = absl::StrCat(fields[2].size() < 4 ? " " : "", fields[2]);
@@ -104,7 +105,7 @@ std::optional<std::string> from_fields(absl::string_view line) {
                                        residue, chain, number, insertion);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const absl::string_view coordinate = fields[first + axis];
-    // What does not fit is cut to at least three decimals.
+    // A number that does not fit is cut, but keeps at least three decimals.
     if (coordinate.size() > kCoordinateWidth && coordinate.find('.') >= kCoordinateWidth - 3) return std::nullopt;
     if (coordinate.find_first_of("eEdD") != absl::string_view::npos) return std::nullopt;
     absl::StrAppendFormat(&result, "%8s", coordinate.substr(0, kCoordinateWidth));
@@ -126,13 +127,13 @@ absl::string_view pdb_field(absl::string_view line, std::size_t first, std::size
 
 bool has_coordinates(absl::string_view line) {
   const int points = points_in_place(line);
-  // A line that ends within z, of which the other coordinates have three decimals, was cut off.
+  // A line that ends within z, although its other coordinates have three decimals, is incomplete.
   if (line.size() < kLastCoordinate && points >= 2 && pdb_field(line, 44, 46).size() == 3) return false;
   const bool own_kind = points == 3;
   for (std::size_t first = kFirstCoordinate; first < kLastCoordinate; first += kCoordinateWidth) {
     const absl::string_view field = pdb_field(line, first, first + kCoordinateWidth - 1);
     if (!is_number(field)) return false;
-    // Numbers of the format's own kind fill their columns, and touch; others may touch before a sign.
+    // Numbers in the format's "%8.3f" may fill their columns and so touch. Others may touch only before a sign.
     const bool touches = !is_blank_at(line, first - 1) && !is_blank_at(line, first) && line[first - 1] != '-';
     if (touches && !own_kind) return false;
   }

@@ -16,12 +16,14 @@
 namespace isofield {
 namespace {
 
+// Columns of a record.
 constexpr std::size_t kWidth = 80;
+// The number of serial numbers that hybrid-36 has with five decimal digits or a capital letter first.
 constexpr std::size_t kSerialLimit = 100'000 + 26 * 36 * 36 * 36 * 36;
 
 enum class Record { kAtom, kModel, kEndOfModel, kAssembly, kOther };
 
-// Names of records are up to six letters; an atom's may touch its serial number.
+// Names of records have up to six letters. The name ATOM may touch its serial number, as in "ATOM100000".
 Record record_of(absl::string_view line) {
   const absl::string_view name = pdb_field(line, 1, 6);
   const auto is = [&](absl::string_view known) { return absl::EqualsIgnoreCase(name, known); };
@@ -35,7 +37,7 @@ Record record_of(absl::string_view line) {
   return Record::kOther;
 }
 
-// The next line, without blanks before its record's name.
+// Reads the next line without the blanks before its record's name. False at the end.
 bool next_record(LineReader& lines, absl::string_view& line) {
   if (!lines.next_raw(line)) return false;
   line.remove_prefix(std::min(line.size(), line.find_first_not_of(" \t")));
@@ -60,7 +62,7 @@ class ModelCounter {
   bool open_ = false;
 };
 
-// "A0000" follows 99999.
+// Writes a serial number in five characters, in hybrid-36: "A0000" follows 99999.
 std::string hybrid_36(std::size_t serial) {
   if (serial < 100'000) return absl::StrCat(absl::Dec(serial, absl::kSpacePad5));
   constexpr std::size_t kA0000 = 10u * 36 * 36 * 36 * 36;
@@ -72,7 +74,7 @@ std::string hybrid_36(std::size_t serial) {
   return digits;
 }
 
-// Whether the file's names are right-justified, as the first of a single-letter element that tells shows.
+// Finds out whether the file's atom names are right-justified. The first name of a single-letter element tells.
 class NameStyle {
  public:
   void pass(absl::string_view line) {
@@ -87,7 +89,7 @@ class NameStyle {
   }
 
  private:
-  // "C", "N1", "O12"; a carbon by its letter alone.
+  // True for "C", "N1", "O12" and the like: a letter with nothing but digits after it cannot be another element.
   static bool is_carbon_or_kin(absl::string_view name) {
     return name.find_first_of("CNOcno") == 0 && name.find_first_not_of("0123456789", 1) == name.npos;
   }
@@ -96,7 +98,7 @@ class NameStyle {
   bool left_justified_ = false;
 };
 
-// Columns 77 and 78 without a charge, which may begin in the second: "N1+".
+// The element in columns 77 and 78. A charge after it, which may begin in column 78 ("N1+"), is left out.
 const Element* stated_element(absl::string_view line) {
   absl::string_view field = pdb_field(line, 77, 78);
   while (!field.empty() && !absl::ascii_isalpha(static_cast<unsigned char>(field.back()))) field.remove_suffix(1);
@@ -139,7 +141,8 @@ class PdbMender {
     atom.residue = pdb_field(line, 18, 20);
     atom.chain = pdb_field(line, 22, 22);
     if (!pdb_field(line, 21, 21).empty()) {
-      // Either the fourth letter of a residue, or the first of a chain: a known residue has its three.
+      // Column 21 holds the fourth letter of a residue's name or the first one of a chain's. It is a chain's where the
+      // three letters before it are a known residue.
       if (gemmi::find_tabulated_residue(absl::AsciiStrToUpper(atom.residue)).found()) {
         atom.chain = pdb_field(line, 21, 22);
       } else {
@@ -155,7 +158,7 @@ class PdbMender {
     if (!atom.element) atom.element = element_of_name(pdb_columns(line, 13, 16), atom.residue, columns_);
   }
 
-  // Only what the reader needs, in printable characters.
+  // Appends the record for gemmi's reader: only the fields that it needs, in printable characters.
   void append(absl::string_view line, const PdbAtomLine& atom) {
     std::string& text = result_.text;
     const std::size_t begin = text.size();

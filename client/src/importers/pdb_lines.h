@@ -12,25 +12,26 @@
 
 namespace isofield {
 
-// What an ATOM or HETATM record says in its columns, but for the numbers.
+// The texts in the columns of an ATOM or HETATM record; gemmi reads the coordinates and the occupancy.
 struct PdbAtomLine {
   AtomSource source{};
   const Element* element = nullptr;
   absl::string_view name, altloc, residue, chain, number;
 };
 
-// One model of a PDB file, as text that a strict reader takes: the records of assemblies (REMARK 350), and ATOM and
-// HETATM records of 80 columns with numbers in all fields. Their serial number is the index of their line in `atoms`,
-// in hybrid-36. A mended line lives in `mended`; move, but do not copy.
+// One model of a PDB file as text that a strict reader accepts. It holds the records of assemblies (REMARK 350), and
+// ATOM and HETATM records of 80 columns with numbers in all fields. The serial number of a record, in hybrid-36, is the
+// index of its line in `atoms`. `mended` owns the lines that had to be mended, and `atoms` has views into them: this
+// may be moved, but not copied.
 struct PdbLines {
   std::string text;
   std::vector<PdbAtomLine> atoms;
   std::deque<std::string> mended;
 };
 
-// Chooses the model, mends lines and drops those that cannot be mended, with a note each. Frames that END parts are
-// models too. The views are into `text` and the result. INVALID_ARGUMENT: no atoms, or ImportOptions::frame is beyond
-// the last model.
+// Chooses the model, mends lines and drops those that cannot be mended; each of these is noted. Frames between records
+// END count as models too. The views refer to `text` and to the result. INVALID_ARGUMENT: there are no atoms, or more
+// in a model than serial numbers, or ImportOptions::frame is beyond the last model.
 absl::StatusOr<PdbLines> mend_pdb(const std::string& text, const ImportOptions& options, ImportReport& report);
 
 }  // namespace isofield

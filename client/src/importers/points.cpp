@@ -18,19 +18,19 @@
 namespace isofield {
 namespace {
 
-// R of a bare point without ImportOptions::radius.
+// R of a bare point for which neither ImportOptions::radius nor a column states one.
 constexpr double kSoftRadius = 0.5;
-// Where w(r) = (1 - r^2)^3 is 1/2; scene.proto.
+// The r at which w(r) = (1 - r^2)^3, the field of soft objects in scene.proto, is 1/2.
 const double kSurface = std::sqrt(1 - std::cbrt(0.5));
-// Larger numbers have squares that float32 cannot hold.
+// Squares of numbers up to this one fit into float32.
 constexpr double kLargest = 1e15;
 constexpr char kDropped[] = "line dropped: expected \"x y z\" with finite numbers of a usable size";
 
-// The column of R; nothing: there is none. INVALID_ARGUMENT: the one that is asked for is not there.
+// The column of R, or nothing where there is none. INVALID_ARGUMENT: the column that is asked for is not there.
 absl::StatusOr<std::optional<std::size_t>> radius_column(const TableHead& head, const std::string& asked) {
   if (asked.empty()) {
     if (const auto column = find_column(head.names(), "radius")) return column;
-    // Colours are r, g, b.
+    // Beside a column g, a column r is red.
     return find_column(head.names(), "g") ? std::nullopt : find_column(head.names(), "r");
   }
   std::size_t number = 0;
@@ -105,7 +105,8 @@ class PointImport {
     ++report.read;
     std::array<double, 5> numbers{};
     if (const auto status = numbers_->parse(line, numbers.data()); !status.ok()) {
-      // With a header the message names the column, and a second clause speaks of decimal commas.
+      // The message is worth repeating where it names a column of the header, or speaks of decimal commas in a second
+      // clause.
       const bool is_plain = head_.names().empty() && !absl::StrContains(status.message(), ';');
       note(report, is_plain ? kDropped : absl::StrCat("line dropped: ", status.message()), number, line);
       return;
@@ -136,7 +137,7 @@ class PointImport {
   TableHead head_;
   std::optional<RowNumbers> numbers_;
   bool has_radius_ = false;
-  // Among the numbers of a row; 0: the table has no distances.
+  // The place of the distance among the numbers of a row; 0 where the table has no distances.
   std::size_t distance_place_ = 0;
 };
 

@@ -28,7 +28,8 @@ void note_trees(const std::vector<SwcSample>& samples, ImportReport& report) {
   }
 }
 
-// Somata of 100 um are the largest; membranes are 0.01 um thick, and no process is thinner.
+// Notes a unit that is probably wrong. No soma has a radius above 100 um, and a neuron that is 0.02 um thick at most
+// would hardly be more than its membranes, which are 0.01 um thick.
 void note_size(const std::vector<SwcSample>& samples, ImportReport& report) {
   constexpr double kLargest = 100, kSmallest = 0.02;
   const auto& widest = *std::max_element(samples.begin(), samples.end(), [](const SwcSample& a, const SwcSample& b) {

@@ -44,14 +44,14 @@ Solid ellipsoid(const Contour& contour) {
   return solid;
 }
 
-// The hull of the balls of a contour and the one above.
+// The hull of two balls of a stack: that of the contour `below` and that of the next contour.
 Solid hull(const ContourStack& stack, std::size_t below) {
   const auto& a = stack.balls[below];
   const auto& b = stack.balls[below + 1];
   return {stack.origin, stack.to_local, a.center, b.center, a.radius, b.radius};
 }
 
-// Adds a node that places the last node of the scene: the columns of its matrix are `axes`.
+// Adds a transform that places the last node of the scene. `axes` and `origin` are the columns of its matrix.
 void add_transform(const std::array<Vector3, 3>& axes, const Vector3& origin, v1::Scene& scene) {
   const std::string child = absl::StrCat("#", scene.nodes_size() - 1);
   v1::Transform& transform = *scene.add_nodes()->mutable_transform();
@@ -62,13 +62,14 @@ void add_transform(const std::array<Vector3, 3>& axes, const Vector3& origin, v1
   }
 }
 
-// The range of a shape below a transform with these axes: the server takes lengths before and after it, and rounds.
+// Clamps the range of a shape below a transform with these axes. The server limits lengths before and after the
+// transform, and rounds them.
 double range_within(const std::array<Vector3, 3>& axes, double range) {
   const auto [least, most] = std::minmax({1.0, length(axes[0]), length(axes[1]), length(axes[2])});
   return std::clamp(range, 2 * kLeastLength / least, kLargestLength / (2 * most));
 }
 
-// The coordinate axis that a unit vector lies along, to rounding; 3 for none.
+// The index of the coordinate axis that a unit vector lies along, but for rounding; 3 where it lies along none.
 std::size_t axis_of(const Vector3& unit) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (std::abs(unit[axis]) > 1 - 1e-12) return axis;
@@ -109,7 +110,7 @@ void add_hull(const ContourStack& stack, std::size_t below, const ImportOptions&
   add_transform(stack.axes, stack.origin, scene);
 }
 
-// Whether two balls are one but for a hundredth.
+// True where centres and radii of two balls differ by no more than a hundredth of the radius.
 bool is_same(const ContourStack::Ball& a, const ContourStack::Ball& b) {
   return distance(a.center, b.center) + std::abs(a.radius - b.radius) <= 0.01 * a.radius;
 }
@@ -119,7 +120,7 @@ void add_stack(const Soma& soma, const std::vector<SwcSample>& samples, const Im
   const auto& balls = soma.stack.balls;
   std::size_t added = 0;
   for (std::size_t i = 0; i + 1 < balls.size(); ++i) {
-    // Contours of an ellipsoid share a ball, which one piece holds.
+    // All contours of an ellipsoid have the same ball, for which one piece is enough.
     if (i > 0 && is_same(balls[added], balls[i]) && is_same(balls[added], balls[i + 1])) continue;
     added = i + 1;
     add_hull(soma.stack, i, options, scene);
@@ -127,7 +128,7 @@ void add_stack(const Soma& soma, const std::vector<SwcSample>& samples, const Im
   }
 }
 
-// The two contours between which a point lies, or the nearest two: the index of the lower one.
+// The index of the lower one of the two contours between which a point lies, or of the two nearest ones.
 std::size_t contour_below(const Soma& soma, const Vector3& point) {
   const Vector3 normal = soma.contours.front().normal;
   const auto above = std::upper_bound(
@@ -169,11 +170,11 @@ bool Solid::contains(const Vector3& point) const {
   constexpr double kTolerance = 1 + 1e-9;
   const Vector3 p = local(point), axis = subtract(b, a);
   const double height = length(axis), slope = height > 0 ? (radius_b - radius_a) / height : 0;
-  // One ball contains the other.
+  // The hull is a single ball where one of the balls contains the other.
   if (!(height > 0) || std::abs(slope) >= 1) {
     return distance(p, radius_a >= radius_b ? a : b) <= std::max(radius_a, radius_b) * kTolerance;
   }
-  // Of all balls between the two, the one that reaches the point furthest.
+  // The hull is the union of all balls between the two; t is the place of the one that comes nearest to the point.
   const double along = dot(subtract(p, a), axis) / height;
   const double aside = std::sqrt(std::max(0.0, dot(subtract(p, a), subtract(p, a)) - along * along));
   const double t = std::clamp((along + aside * slope / std::sqrt(1 - slope * slope)) / height, 0.0, 1.0);

@@ -9,10 +9,10 @@
 
 namespace isofield {
 
-// The convex hull of two balls, in coordinates that a linear map about an origin makes.
+// The convex hull of two balls after a linear map about an origin. The balls `a` and `b` are in mapped coordinates.
 struct Solid {
   Vector3 origin{};
-  // By rows; takes p - origin to the coordinates of the hull.
+  // The rows of the map's matrix, which takes p - origin to the mapped coordinates.
   std::array<Vector3, 3> to_local = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   Vector3 a{}, b{};
   double radius_a = 0, radius_b = 0;
@@ -27,20 +27,21 @@ struct Joint {
   Vector3 target{};
   // The parts of the soma near the process, one or two.
   std::vector<Solid> solids;
-  // Processes that are thicker do not begin within the soma.
+  // The least radius of a process that is thicker than the soma there; its samples inside the soma are kept.
   double width = 0;
 
   bool contains(const Vector3& point) const;
-  // The place at which the way from `inner` to `outer` leaves the solids; `inner` where that is outside already.
+  // The point at which the line from `inner` to `outer` leaves the solids; `inner` itself where it is outside already.
   Vector3 surface(const Vector3& inner, const Vector3& outer) const;
 };
 
-// Adds the pieces of a soma that is no stack of frusta: a sphere, an ellipsoid, or a hull for each two neighbours of
-// several contours. Named after the soma's first sample or, of several contours, after the first of the upper one.
+// Adds the pieces of a soma that is no stack of frusta: a sphere, an ellipsoid, or one hull for each pair of
+// neighbouring contours. A sphere or an ellipsoid is named after the soma's first sample, a hull after the first sample
+// of its upper contour.
 void add_soma(const Soma& soma, const std::vector<SwcSample>& samples, const ImportOptions& options, v1::Scene& scene);
 
-// The joint of a process that is linked to the soma's sample `at` and whose nearest sample is at `outer`. Its time does
-// not grow with the soma. All samples but outlines have a radius.
+// The joint of a process that is linked to the soma's sample `at` and whose nearest sample is at `outer`. All samples
+// but those of outlines must have a radius. It costs the same for somata of any size, but for a binary search.
 Joint join_soma(const Somata& somata, int at, const Vector3& outer, const std::vector<SwcSample>& samples);
 
 }  // namespace isofield

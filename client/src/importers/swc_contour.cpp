@@ -9,14 +9,17 @@
 namespace isofield {
 namespace {
 
-// Parts of the mean distance from the centre.
+// How far points of one plane, and of one depth, may lie apart along the normal, as parts of their mean distance from
+// the centre.
 constexpr double kPlaneTolerance = 0.1;
 constexpr double kDepthTolerance = 1e-3;
-// 4 pi area / perimeter^2 is 1 for a circle, 0.24 for an ellipse of axes 10 : 1, and 0 for a line there and back.
+// The least roundness, 4 pi area / perimeter^2, of an outline. It is 1 for a circle, 0.24 for an ellipse of axes 10 :
+// 1, and 0 for a line there and back.
 constexpr double kLeastRoundness = 0.15;
-// An order of angles makes a polygon of any points; zigzags are no outlines.
+// The same for points that were sorted by angle. That makes a polygon of any points, so more is demanded.
 constexpr double kLeastRoundnessByAngle = 0.4;
-// The part of an outline that its closing edge may be: half of it for a triangle. A half circle has 0.64.
+// The largest closing edge of an outline, over the length of all other edges. It is 0.5 for an equilateral triangle and
+// 0.64 for a half circle, which is an open arc.
 constexpr double kLargestGap = 0.55;
 
 Vector3 mean(const std::vector<Vector3>& points) {
@@ -32,7 +35,7 @@ double mean_distance(const std::vector<Vector3>& points, const Vector3& center) 
 }
 
 // The normal of the plane through the centre, the point furthest from it and the one that spans the widest triangle
-// with both; nothing where all lie on a line.
+// with both. Nothing where all points lie on a line.
 std::optional<Vector3> plane_normal(const std::vector<Vector3>& points, const Vector3& center) {
   const auto by_distance = [&](const Vector3& a, const Vector3& b) {
     return distance(a, center) < distance(b, center);
@@ -49,7 +52,7 @@ std::optional<Vector3> plane_normal(const std::vector<Vector3>& points, const Ve
 
 using Point2 = std::array<double, 2>;
 
-// Area and perimeter of the closed polygon, and its moments about the origin.
+// Area, perimeter, length of the closing edge, and the first and second moments about the origin of a closed polygon.
 struct Polygon {
   double area = 0, perimeter = 0, closing = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 
@@ -72,7 +75,8 @@ struct Polygon {
   double roundness() const { return 4 * std::numbers::pi * std::abs(area) / (perimeter * perimeter); }
 };
 
-// The points by their depth along the normal, in runs of equal depth. Within a run they keep their order.
+// Groups the points into runs of equal depth along the normal, in ascending order. Within a run points keep their
+// order.
 std::vector<std::vector<int>> runs_of_depth(const std::vector<Vector3>& points, const Vector3& normal) {
   const Vector3 middle = mean(points);
   const double tolerance = kDepthTolerance * mean_distance(points, middle);
@@ -90,7 +94,8 @@ std::vector<std::vector<int>> runs_of_depth(const std::vector<Vector3>& points, 
   return runs;
 }
 
-// One contour a run; nothing where a run is none, or where more than a fifth of the points lie alone at their depth.
+// Fits a contour to each run. Empty where a run is no outline, or where more than a fifth of the points are in runs of
+// one or two.
 std::vector<Contour> fit_runs(const std::vector<Vector3>& points, const std::vector<std::vector<int>>& runs,
                               bool in_order) {
   std::vector<Contour> contours;
@@ -124,7 +129,7 @@ std::optional<Contour> fit_contour(const std::vector<Vector3>& points, bool in_o
   });
   if (!is_flat) return std::nullopt;
 
-  // Any frame of the plane, in units of the extent.
+  // The points in some frame of the plane, in units of the extent.
   const std::size_t axis = std::abs((*normal)[0]) < 0.6 ? 0 : 1;
   Vector3 u{};
   u[axis] = 1;
@@ -153,7 +158,7 @@ std::optional<Contour> fit_contour(const std::vector<Vector3>& points, bool in_o
   // Outlines that cross themselves can have moments that no area has.
   if (!(half_sum - half_difference > 1e-4)) return std::nullopt;
   const double a = 2 * std::sqrt(half_sum + half_difference), b = 2 * std::sqrt(half_sum - half_difference);
-  // A circle has no longer axis: any turn would do, and none keeps the frame.
+  // The axes of a circle are arbitrary; it keeps those of the frame.
   const double turn = half_difference > 1e-9 * half_sum ? std::atan2(2 * xy, xx - yy) / 2 : 0;
   const double cosine = std::cos(turn), sine = std::sin(turn);
   double size = 0;
@@ -176,7 +181,7 @@ std::optional<Contour> fit_contour(const std::vector<Vector3>& points, bool in_o
 std::vector<Contour> fit_contours(const std::vector<Vector3>& points, bool in_order) {
   if (points.size() < 6) return {};
   std::vector<Vector3> normals = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
-  // The first points of a contour span the plane of sections that were turned.
+  // Sections in another direction have the plane that the first points of a contour span.
   for (std::size_t i = 2; i < points.size(); ++i) {
     const Vector3 a = subtract(points[1], points[0]), b = subtract(points[i], points[0]);
     const Vector3 normal = cross(a, b);

@@ -3,7 +3,6 @@
 #include <absl/strings/str_cat.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "importers/import_options.h"
 #include "importers/import_report.h"
@@ -22,7 +21,7 @@ End end_of(const SwcSample& sample) {
 }
 
 bool has_length(const End& a, const End& b) {
-  // Shorter ones vanish when rounded to float32.
+  // Shorter edges vanish when rounded to float32.
   constexpr double kShortest = 1e-6;
   return distance(a.center, b.center) > kShortest * std::max(a.radius, b.radius);
 }
@@ -100,7 +99,7 @@ class PieceMaker {
     }
   }
 
-  // A process begins at the surface of its soma: samples inside are left out, but for those that are thicker than it.
+  // A process begins at the surface of its soma: samples inside are left out unless they are thicker than the soma.
   void leave_soma(int i) {
     const SwcSample& sample = samples_[i];
     const int parent = sample.parent;
@@ -120,7 +119,7 @@ class PieceMaker {
     add_edge(i, {start, inner_radius + part * (sample.radius - inner_radius)}, end_of(sample));
   }
 
-  // Whether the furthest point from the soma's middle lies inside too.
+  // True where the joint also contains the point of the sample's ball that is farthest from the target.
   static bool is_covered(const Joint& joint, const End& end) {
     const double out = distance(joint.target, end.center);
     return !(out > 0) || joint.contains(between(joint.target, end.center, 1 + end.radius / out));
@@ -131,7 +130,8 @@ class PieceMaker {
          sample.line, false);
   }
 
-  // Where the edge has no length, its sample's place is covered by the parent's pieces, but for an end that is wider.
+  // Adds a segment. An edge without a length is left out, since the parent's pieces cover its place; but an end that is
+  // wider than its parent becomes a sphere.
   void add_edge(int i, const End& from, const End& to) {
     const SwcSample& sample = samples_[i];
     if (has_length(from, to)) return add_segment(piece_name(sample), from, to);
@@ -159,11 +159,12 @@ class PieceMaker {
   const ImportOptions& options_;
   v1::Scene& scene_;
   ImportReport& report_;
-  std::vector<int> tree_;        // of each sample: its root
-  std::vector<int> edges_;       // of each root: edges and bodies that become pieces
-  std::vector<int> widest_;      // of each root: the sample with the largest radius
-  std::vector<bool> has_child_;  // of each sample
-  // Of each sample of a process that lies inside a soma: the soma's sample that the process is linked to.
+  std::vector<int> tree_;        // for each sample: its root
+  std::vector<int> edges_;       // for each root: the number of edges and bodies that become pieces
+  std::vector<int> widest_;      // for each root: the sample with the largest radius
+  std::vector<bool> has_child_;  // for each sample: whether another one has it as parent
+  // For each sample of a process that lies inside a soma: the soma's sample that the process is linked to. Else
+  // kNoParent.
   std::vector<int> within_;
 };
 

@@ -8,15 +8,15 @@
 
 namespace isofield {
 
-// The range of a neuron's piece over its radius, without ImportOptions::range_factor.
+// The default of ImportOptions::range_factor for neurons: the range of a piece over its radius.
 inline constexpr double kSwcRangeFactor = 1;
 
-// Turns linked samples with radii into the pieces of a scene, parents first, and reports what is left out. `order`:
-// parents first.
+// Turns linked samples with radii into the pieces of a scene, and reports what is left out. `order` lists the samples'
+// indices with each parent before its children; the pieces come in this order.
 void make_pieces(const std::vector<SwcSample>& samples, const std::vector<int>& order, const Somata& somata,
                  const ImportOptions& options, Imported& imported);
 
-// A ball at the sample, named after it.
+// Adds a sphere at the sample, with its radius and name.
 void add_sphere(const SwcSample& sample, const ImportOptions& options, v1::Scene& scene);
 
 }  // namespace isofield

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "importers/import_report.h"
 #include "importers/text.h"
@@ -20,12 +19,12 @@ constexpr std::size_t kColumns = 7;
 constexpr double kFarthest = kLargestLength / 4;
 enum Column { kId, kType, kX, kRadius = 5, kParent };
 
-// The data of a line: what stands before a comment.
+// The part of a line before a comment.
 absl::string_view without_comment(absl::string_view line) {
   return line.substr(0, line.find('#'));
 }
 
-// A text with a decimal comma has a comma between two digits within fields that blanks separate.
+// True where blanks or semicolons separate enough fields and one of these has a comma inside: it is a decimal comma.
 bool has_decimal_commas(absl::string_view data) {
   const std::vector<absl::string_view> fields = absl::StrSplit(data, absl::ByAnyChar(" \t;"), absl::SkipEmpty());
   return fields.size() >= kColumns && std::any_of(fields.begin(), fields.end(), [](absl::string_view field) {

@@ -10,7 +10,7 @@
 
 namespace isofield {
 
-// Holds signed and unsigned numbers of 64 bits.
+// Wide enough for signed and for unsigned numbers of 64 bits, since files have either as ids.
 using SwcId = absl::int128;
 
 inline constexpr long long kSomaType = 1;
@@ -19,10 +19,10 @@ inline constexpr int kNoParent = -1;
 // A usable line of an SWC file.
 struct SwcSample {
   SwcId id = 0;
-  // 0 undefined, 1 soma, 2 axon, 3 basal dendrite, 4 apical dendrite; others are custom.
+  // 0 is undefined, 1 a soma, 2 an axon, 3 a basal and 4 an apical dendrite; other types are custom.
   long long type = 0;
   Vector3 center{};
-  // 0 where the file has none that a scene could hold.
+  // 0 where the file states none that a scene can hold.
   double radius = 0;
   SwcId parent_id = -1;
   // The index of the parent's sample, or kNoParent.
@@ -35,7 +35,7 @@ inline bool is_soma(const SwcSample& sample) {
   return sample.type == kSomaType;
 }
 
-// "n17": the name of the piece that ends at the sample.
+// The name of the piece that ends at the sample, such as "n17".
 std::string piece_name(const SwcSample& sample);
 
 }  // namespace isofield

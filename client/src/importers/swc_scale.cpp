@@ -14,8 +14,8 @@
 namespace isofield {
 namespace {
 
-// The fields behind the word SCALE of a header line, or nothing where the line is another one. Prose that begins with
-// the word "scale" in other letters is no header.
+// The fields after the word SCALE of a header line; nothing for any other line. Where "scale" is not in capitals, a
+// number must follow, since the comment may be prose.
 std::optional<std::vector<absl::string_view>> scale_fields(absl::string_view line) {
   if (!absl::ConsumePrefix(&line, "#")) return std::nullopt;
   while (absl::ConsumePrefix(&line, "#")) continue;
@@ -29,7 +29,7 @@ std::optional<std::vector<absl::string_view>> scale_fields(absl::string_view lin
   line = absl::StripLeadingAsciiWhitespace(line);
   if (!line.empty() && (line.front() == ':' || line.front() == '=')) line.remove_prefix(1);
   const auto fields = split_fields(line);
-  // Templates of the header leave the value empty.
+  // Some programs write the header with an empty value, which means nothing.
   if (fields.empty() || (!is_header_word && !parse_double(fields[0]))) return std::nullopt;
   return fields;
 }

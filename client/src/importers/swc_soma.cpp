@@ -49,7 +49,7 @@ class SomaFinder {
     }
   }
 
-  // Samples so near each other that no edge between them has a length; the first one gets the largest radius.
+  // True for samples so near each other that no edge between them has a length. The first one gets the largest radius.
   bool is_at_one_place(const Soma& soma) {
     SwcSample& first = samples_[soma.members.front()];
     double radius = 0, extent = 0;
@@ -62,7 +62,8 @@ class SomaFinder {
     return true;
   }
 
-  // The radii of the three are equal to the distance, or state nothing: 0, or as thin as an outline.
+  // True where the second and the third sample are opposite each other about the first, their parent, and each radius
+  // is equal to the distance between them and it or states nothing (0, or as thin as an outline).
   bool is_sphere_of_three(const Soma& soma) {
     constexpr double kTolerance = 0.05;
     const int center = soma.members[0];
@@ -102,7 +103,7 @@ class SomaFinder {
                contour.minor_length >= kLeast && contour.major_length <= kMost;
       });
       if (contours.empty() || !are_thin) continue;
-      // Of the two sides of a single contour, the normal takes the one that pictures are seen from.
+      // The normal of a single contour points to the side from which pictures are seen by default.
       if (contours.size() == 1) face({1e-6, 1e-3, 1}, contours.front());
       for (Contour& contour : contours) contour.first_point = outer[contour.first_point];
       soma.contours = std::move(contours);
@@ -128,8 +129,8 @@ class SomaFinder {
     return radii[radii.size() / 2];
   }
 
-  // An outline of its own tree belongs to the one before it in the file where the two lie above each other, no further
-  // apart than the body is wide.
+  // Outlines at several depths may be trees of their own. Each one joins the outline before it in the file where the
+  // two lie above each other, no farther apart than the body is wide.
   void join_outlines() {
     Soma* open = nullptr;
     for (Soma& soma : found_.all) {
@@ -153,7 +154,7 @@ class SomaFinder {
       std::stable_sort(soma.contours.begin(), soma.contours.end(), [&](const Contour& a, const Contour& b) {
         return dot(normal, a.center) < dot(normal, b.center);
       });
-      // Of two outlines at one depth, such as a nucleus within its cell, the first stands for both.
+      // Two outlines at one depth may be those of a cell and its nucleus; only the first one is kept.
       const auto is_same_depth = [&](const Contour& a, const Contour& b) {
         return dot(normal, subtract(b.center, a.center)) <= 1e-3 * std::min(a.minor_length, b.minor_length);
       };
@@ -199,9 +200,10 @@ class SomaFinder {
                     : "soma of a chain of samples: made a stack of frusta with round ends");
   }
 
-  // Radii below this part of the extent are the width of a pen.
+  // Samples whose radius is below this part of the extent are drawn outlines: the radius is the width of the pen.
   static constexpr double kThin = 0.3;
-  // Outlines that are smaller or larger might leave what a scene can hold when they are turned and stretched.
+  // Limits of an outline's semi-axes. Beyond these, numbers may leave the range of a scene after turning and
+  // stretching.
   static constexpr double kLeast = 1e-6, kMost = 1e8;
 
   std::vector<SwcSample>& samples_;

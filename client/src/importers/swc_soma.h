@@ -16,36 +16,37 @@ enum class SomaForm {
   kSphere,
   // A segment for each edge between its samples.
   kFrusta,
-  // One contour or several, by depth along the normal that they share.
+  // One contour, or several ordered by depth along their common normal.
   kContours,
 };
 
 // Samples of type 1 that are linked to each other, and outlines of the same body at other depths.
 struct Soma {
   SomaForm form = SomaForm::kSphere;
-  // Indices, parents first.
+  // Indices of the samples, parents first.
   std::vector<int> members;
   std::vector<Contour> contours;
-  // Of several contours.
+  // The body of several contours; unused for one.
   ContourStack stack;
 };
 
 struct Somata {
   std::vector<Soma> all;
-  // Of each sample: the index of its soma, or kNoSoma.
+  // For each sample: the index of its soma in `all`, or kNoSoma.
   std::vector<int> soma_of;
-  // Of each sample: the first sample of its soma that is its child, or kNoParent.
+  // For each sample: its first child that belongs to the same soma, or kNoParent.
   std::vector<int> first_child;
-  // Of each sample: whether it only tells where the surface of a soma is, and its radius nothing.
+  // For each sample: true where it only marks the surface of a soma, so that its radius means nothing.
   std::vector<bool> outlines;
 };
 
-// Finds the somata of linked samples and decides, by geometry, what each one is; the report says what was decided.
-// `order`: parents first. Gives the centre of a soma of three samples the radius of its sphere.
+// Finds the somata of linked samples and decides by their geometry which form each one has; the report states the form.
+// `order` lists the samples' indices with parents first. The centre of a soma of three samples gets the radius of its
+// sphere.
 //
-// Contours have samples that are thin, next to the extent of the soma, and lie in one plane or several parallel ones,
-// on a closed loop or at the ends of a star. Three samples are a sphere where the second and third are opposite each
-// other at the radius of the first, which is their parent. A soma that is neither has a segment for each edge.
+// The samples of contours are thin compared with the extent of the soma. They lie in one plane or in several parallel
+// ones, on a closed loop or at the ends of a star. Three samples are a sphere where the second and the third are
+// opposite each other at the radius of the first, which is their parent. Any other soma has a segment for each edge.
 Somata find_somata(const std::vector<int>& order, std::vector<SwcSample>& samples, ImportReport& report);
 
 }  // namespace isofield

@@ -6,10 +6,11 @@
 namespace isofield {
 namespace {
 
-// The server refuses maps of a condition number above 1e6; this bounds either stretch.
+// The largest stretch within the plane or along the depth. The server refuses maps of a condition number above 1e6.
 constexpr double kMostStretch = 500;
 
-// Axes and aspect of the mean of the ellipses, each weighed by its area.
+// Sets origin and axes of the stack, and `aspect`, the ratio of the axes of the mean ellipse. Larger ellipses weigh
+// more.
 void set_frame(const std::vector<Contour>& contours, ContourStack& stack, double& aspect) {
   const Contour& widest = *std::max_element(contours.begin(), contours.end(), [](const Contour& a, const Contour& b) {
     return a.major_length * a.minor_length < b.major_length * b.minor_length;
@@ -39,7 +40,7 @@ struct Ring {
   double squared_radius;
 };
 
-// The slope of the parabola through three rings at one of them; of two rings, of the line.
+// The slope of the squared radius at a ring: that of the parabola through three rings, or of the line through two.
 double slope_at(const std::vector<Ring>& rings, std::size_t i) {
   const auto secant = [&](std::size_t a, std::size_t b) {
     return (rings[b].squared_radius - rings[a].squared_radius) / (rings[b].depth - rings[a].depth);
@@ -51,8 +52,8 @@ double slope_at(const std::vector<Ring>& rings, std::size_t i) {
   return below + curvature * (2 * rings[i].depth - rings[m - 1].depth - rings[m].depth);
 }
 
-// How much the depth is stretched where the rings are those of an ellipsoid, by the mean curvature of their squared
-// radii: minus the square of the stretch.
+// The stretch of the depth that makes a ball of the body, if the rings are those of an ellipsoid. Their squared radii
+// are then a parabola of the depth whose leading coefficient is minus the square of the stretch.
 double roundest_stretch(const std::vector<Ring>& rings) {
   const Ring& first = rings.front();
   const Ring& last = rings.back();
@@ -70,7 +71,7 @@ double roundest_stretch(const std::vector<Ring>& rings) {
   return std::sqrt(std::max(0.0, product / square));
 }
 
-// Depth and radius of a ring's ball, in the stretched depth.
+// The ball that touches a ring: the depth of its centre, which is stretched, and its radius.
 struct Touching {
   double depth;
   double radius;
@@ -88,6 +89,7 @@ std::vector<Touching> touching_balls(const std::vector<Ring>& rings, double stre
   return balls;
 }
 
+// True where the balls reach no farther beyond the outer rings than the next ring is away.
 bool ends_in_time(const std::vector<Ring>& rings, const std::vector<Touching>& balls, double stretch) {
   const std::size_t last = rings.size() - 1;
   const double low = 2 * rings[0].depth - rings[1].depth, high = 2 * rings[last].depth - rings[last - 1].depth;

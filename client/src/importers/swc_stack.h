@@ -7,23 +7,23 @@
 
 namespace isofield {
 
-// The body that contours at several depths outline: balls, one for each contour, and the hull of each two neighbours,
-// in coordinates that a linear map makes of the arm from `origin`.
+// The body that contours at several depths outline. It has a ball for each contour, and is the union of the hulls of
+// neighbouring balls. A linear map takes p - origin to the coordinates in which these are balls.
 struct ContourStack {
   struct Ball {
     Vector3 center{};
     double radius = 0;
   };
   Vector3 origin{};
-  // The map by rows, and its inverse by columns.
+  // The rows of the map's matrix, and the columns of its inverse.
   std::array<Vector3, 3> to_local{}, axes{};
   std::vector<Ball> balls;
 };
 
-// `contours`: two or more, by depth along their common normal. The map makes circles of their mean ellipse, and
-// stretches the depth so that the body is as round as it can be; it ends within one distance of contours beyond the
-// outer ones, since another contour would have been drawn there. Each ball touches its contour with the slope that the
-// contours have there, so that those of an ellipsoid give the ellipsoid.
+// Takes two or more contours, ordered by depth along their common normal. The map makes a circle of their mean ellipse,
+// and stretches the depth so that the body is as round as possible. The body must end within one distance of contours
+// beyond the outer ones, since another contour would have been drawn there. Each ball touches its contour with the
+// slope that the contours have there, so that the contours of an ellipsoid give that ellipsoid.
 ContourStack stack_contours(const std::vector<Contour>& contours);
 
 }  // namespace isofield

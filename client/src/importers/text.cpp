@@ -53,8 +53,8 @@ std::optional<double> parse_length(absl::string_view field) {
 }
 
 std::optional<absl::int128> parse_integer64(absl::string_view field) {
-  // A fraction of zeros, such as that of "17.0", changes nothing. All digits of a plain number count: a double does not
-  // tell neighbours beyond 2^53 apart.
+  // A fraction of zeros, as in "17.0", changes nothing. Plain numbers are not read as doubles, which cannot tell
+  // neighbours beyond 2^53 apart.
   absl::string_view digits = field;
   const std::size_t point = field.find('.');
   if (point != absl::string_view::npos && point > 0 &&

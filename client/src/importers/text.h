@@ -35,10 +35,10 @@ std::vector<absl::string_view> split_fields(absl::string_view line);
 // The least length and the largest length or coordinate that the server takes in a scene.
 inline constexpr double kLeastLength = 1e-9;
 inline constexpr double kLargestLength = 1e9;
-// As parse_double, and of a magnitude that a scene's coordinates may have.
+// Like parse_double(), but nothing also for numbers that are too large for a scene's coordinates.
 std::optional<double> parse_length(absl::string_view field);
-// Whole numbers, also written as "17.0" or, up to 2^53, as "1.7e1": of 64 bits with a sign, and of 64 bits with or
-// without one.
+// Whole numbers, which may also be written as "17.0" or, up to 2^53, as "1.7e1". parse_integer() takes signed numbers
+// of 64 bits, parse_integer64() unsigned ones as well. Nothing: the field is no such number.
 std::optional<long long> parse_integer(absl::string_view field);
 std::optional<absl::int128> parse_integer64(absl::string_view field);
 

@@ -1,7 +1,5 @@
 #include "importers/tinker.h"
 
-#include <absl/strings/str_cat.h>
-
 #include "importers/atom_element.h"
 #include "importers/import_report.h"
 #include "importers/molecule.h"
@@ -29,11 +27,12 @@ std::size_t skip_blank_lines(const std::vector<TextLine>& lines, std::size_t at)
 struct TinkerFrame {
   long long count;
   std::size_t header_line;
-  // Lines of atoms.
+  // The lines of its atoms, from `begin` to before `end`.
   std::size_t begin, end;
 };
 
-// The next frame begins at a line that is no atom, after as many lines as the count states.
+// Finds the frames from the line `header_line` on. After as many atoms as its count states, a frame ends at the first
+// line that is no atom.
 std::vector<TinkerFrame> find_tinker_frames(const std::vector<TextLine>& lines, std::size_t header_line) {
   std::vector<TinkerFrame> frames;
   for (std::size_t at = header_line; at < lines.size(); at = skip_blank_lines(lines, at)) {

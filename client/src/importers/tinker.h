@@ -9,11 +9,11 @@
 
 namespace isofield {
 
-// True where a numbered atom, "1 O 0.0 0.0 0.0 ...", follows the count, possibly after six numbers of a box: a file of
-// the program Tinker, which shares its extension with XYZ.
+// True for a file of the program Tinker, which shares its extension with XYZ: a numbered atom, "1 O 0.0 0.0 0.0 ...",
+// follows the count, possibly after the six numbers of a periodic box.
 bool is_tinker(const std::vector<TextLine>& lines, std::size_t header_line);
 
-// Lines of "number name x y z type bonds" after "count title", frame after frame.
+// Imports frames of "count title" and lines of "number name x y z type bonds". Errors are those of choose_frame().
 absl::Status import_tinker(const std::vector<TextLine>& lines, std::size_t header_line, const ImportOptions& options,
                            Imported& imported);
 

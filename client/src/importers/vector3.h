@@ -5,7 +5,7 @@
 
 namespace isofield {
 
-// A point or a direction of space.
+// A point or a direction in space.
 using Vector3 = std::array<double, 3>;
 
 inline Vector3 add(const Vector3& a, const Vector3& b) {
@@ -29,7 +29,7 @@ inline double length(const Vector3& a) {
 inline double distance(const Vector3& a, const Vector3& b) {
   return length(subtract(a, b));
 }
-// The point of the line from a (t = 0) to b (t = 1).
+// The point at t on the line from a (t = 0) to b (t = 1).
 inline Vector3 between(const Vector3& a, const Vector3& b, double t) {
   return add(a, scale(subtract(b, a), t));
 }

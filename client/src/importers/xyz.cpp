@@ -83,7 +83,7 @@ void import_frame(const std::vector<TextLine>& lines, const XyzFrame& frame, con
   }
 }
 
-// The text without a count, and a comment, before its points; lines keep their numbers.
+// The text without the count, and the comment if there is one, before its points. Lines keep their numbers.
 std::string without_header(const std::string& text, const std::vector<TextLine>& lines, std::size_t header_line) {
   std::size_t first = header_line + 1;
   if (!are_numbers(split_fields(lines[first].text))) ++first;

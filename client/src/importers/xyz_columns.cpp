@@ -1,6 +1,5 @@
 #include "importers/xyz_columns.h"
 
-#include <absl/strings/ascii.h>
 #include <absl/strings/match.h>
 #include <absl/strings/numbers.h>
 #include <absl/strings/str_split.h>
@@ -15,7 +14,7 @@ namespace {
 
 constexpr absl::string_view kBlanks = " \t";
 
-// Takes a key or a value off the front: up to an end, or what a pair of quotes holds.
+// Takes a key or a value off the front of `rest`: a text in quotes, or everything up to one of `ends`.
 absl::string_view take(absl::string_view& rest, absl::string_view ends) {
   absl::string_view taken;
   if (!rest.empty() && (rest[0] == '"' || rest[0] == '\'')) {
@@ -33,7 +32,7 @@ void drop_blanks(absl::string_view& rest) {
   rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(kBlanks)));
 }
 
-// The value of a key among "key=value key2="a b" flag", with or without blanks around "=".
+// The value of a key in a text such as `key=value key2="a b" flag`, with or without blanks around "=".
 std::optional<absl::string_view> value_of(absl::string_view comment, absl::string_view wanted) {
   absl::string_view rest = comment;
   for (drop_blanks(rest); !rest.empty(); drop_blanks(rest)) {

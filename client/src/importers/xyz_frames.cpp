@@ -10,9 +10,10 @@
 namespace isofield {
 namespace {
 
+// A bohr in angstrom.
 constexpr double kBohr = 0.529177210903;
 
-// "element x y z" with an element that is known.
+// True for "element x y z" with a known element.
 bool is_atom(absl::string_view line) {
   const auto fields = split_fields(line);
   std::array<double, 3> center;
@@ -60,7 +61,7 @@ std::optional<XyzHeader> parse_header(absl::string_view line) {
   if (!count || *count < 0) return std::nullopt;
   fields.erase(fields.begin());
   if (!fields.empty() && parse_double(fields[0])) return std::nullopt;
-  // A numbered atom, "1 O 0.0 0.0 0.0".
+  // A numbered atom, such as "1 O 0.0 0.0 0.0", is no header.
   if (std::array<double, 3> center; parse_center(fields, 1, center)) return std::nullopt;
   XyzHeader header{*count, 1};
   if (fields.size() == 1 || (fields.size() == 2 && absl::EqualsIgnoreCase(fields[1], "units"))) {

@@ -17,26 +17,26 @@ struct TextLine {
 
 std::vector<TextLine> read_lines(absl::string_view text);
 
-// The first line of a frame: "3", or with words after the count ("3 water").
+// The first line of a frame: a count ("3"), possibly with words after it ("3 water").
 struct XyzHeader {
   long long count = 0;
-  // To angstrom: what the coordinates are multiplied by, where the words are a unit ("3 bohr").
+  // The factor from the file's coordinates to angstrom; not 1 where the words name another unit ("3 bohr").
   double scale = 1;
 };
 
-// Nothing: the line does not begin with a count >= 0, or goes on as a point or an atom does.
+// Reads the first line of a frame. Nothing: the line does not begin with a count >= 0, or is a point or an atom.
 std::optional<XyzHeader> parse_header(absl::string_view line);
 
-// A frame of "count, comment, lines of atoms"; indices of lines.
+// A frame of "count, comment, lines of atoms". All places are indices of lines.
 struct XyzFrame {
   XyzHeader header;
   std::size_t header_line = 0;
-  // kNoComment: the atoms follow the count.
+  // kNoComment where the atoms follow the count at once.
   std::size_t comment_line = 0;
   std::size_t first_atom = 0;
-  // The line after the last of `count` lines; fewer where the next frame begins earlier.
+  // The line after the last atom: after as many atoms as the count states, or where the next frame begins earlier.
   std::size_t end = 0;
-  // Where the next frame begins; lines from `end` to here are more than the count states.
+  // The line at which the next frame begins. Lines from `end` to here are more atoms than the count states.
   std::size_t next = 0;
 };
 inline constexpr std::size_t kNoComment = static_cast<std::size_t>(-1);
@@ -44,11 +44,11 @@ inline constexpr std::size_t kNoComment = static_cast<std::size_t>(-1);
 // All frames from this line on, which must be a header.
 std::vector<XyzFrame> find_frames(const std::vector<TextLine>& lines, std::size_t first);
 
-// True where a count stands before lines that are points, "x y z" or more numbers of which the first is no atomic
-// number, rather than atoms.
+// True where the lines after a count are points rather than atoms: they are "x y z", or have more numbers, the first of
+// which is not an atomic number everywhere.
 bool are_points(const std::vector<TextLine>& lines, std::size_t header_line, const XyzHeader& header);
 
-// Fields first, first + 1, first + 2 as coordinates of a usable size.
+// Reads the fields first, first + 1 and first + 2 as coordinates. False: one is missing, no number or too large.
 bool parse_center(const std::vector<absl::string_view>& fields, std::size_t first, std::array<double, 3>& center);
 
 // True where all fields are numbers.

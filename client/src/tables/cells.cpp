@@ -33,12 +33,12 @@ Separator find_separator(absl::string_view line) {
   const std::size_t semicolons = count_outside_quotes(line, ';');
   const std::size_t commas = count_outside_quotes(line, ',');
   const std::size_t tabs = count_outside_quotes(line, '\t');
-  // A comma beside two semicolons is a decimal comma; a single semicolon beside commas stands in some text.
+  // Commas in a line of several semicolons are decimal commas. A single semicolon among commas belongs to a text.
   if (semicolons > 1 || (semicolons > 0 && commas == 0)) return ';';
-  // A comma before each tab parts the cells itself.
+  // With at least as many commas as tabs, the commas separate the cells and the tabs are blanks around them.
   if (commas > 0 && tabs <= commas) return ',';
   if (tabs == 0) return kBlanks;
-  // Names may have blanks in them where tabs part them; numbers have none.
+  // Names that tabs separate may have blanks in them, but numbers have none.
   const bool mixed = count_outside_quotes(line, ' ') > 0 && cell_number(split_cells(line, kBlanks)[0], kBlanks);
   return mixed ? kBlanks : '\t';
 }

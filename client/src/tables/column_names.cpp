@@ -27,7 +27,7 @@ bool is_one_of(absl::string_view word, std::span<const char* const> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// Names of three columns: an axis after `letter`, or beside one of `words`.
+// How three columns may be named: the axis stands after `letter` ("dx"), or beside one of `words` ("pos x").
 struct Family {
   absl::string_view letter;
   std::span<const char* const> words;
@@ -39,7 +39,7 @@ const Family kOrigins{"o", kOriginWords, "ox, oy and oz"};
 const Family kDirections{"d", kDirectionWords, "dx, dy and dz"};
 const Family kNormals{"n", kNormalWords, "nx, ny and nz"};
 
-// "Pos_X [nm]" is pos, x.
+// The words of a name in lower case, without a unit: "Pos_X [nm]" becomes "pos" and "x".
 std::vector<std::string> words_of(absl::string_view name) {
   const std::size_t bracket = name.find_first_of("([{/");
   if (bracket != absl::string_view::npos && bracket > 0) name = name.substr(0, bracket);

@@ -10,7 +10,7 @@
 namespace isofield {
 namespace {
 
-// "1.5D+03", where from_chars() stopped at the D.
+// Reads a number such as "1.5D+03"; from_chars() stops at the D.
 const char* scan_fortran_double(const char* begin, const char* exponent, const char* end, double& value) {
   const char* stop = exponent + 1;
   if (stop != end && (*stop == '+' || *stop == '-')) ++stop;

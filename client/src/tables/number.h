@@ -8,11 +8,13 @@
 
 namespace isofield {
 
-// What scan_double() does with Fortran's exponents, with what a double cannot hold, and with what is no number.
+// The slow path of scan_double(): for Fortran's exponents, numbers that a double cannot hold, and texts that are no
+// number.
 const char* scan_rare_double(const char* begin, const char* end, double& value);
 
-// Reads the number that a text begins with; infinities, NaN and Fortran's exponents ("1.5D+03") included. Returns where
-// it ends, or nullptr where there is none. What is too large for a double is infinite, what is too small is 0.
+// Reads the number that a text begins with. Infinities, NaN and Fortran's exponents ("1.5D+03") are numbers too.
+// Returns the end of the number, or nullptr where there is none. Numbers too large for a double become infinite, too
+// small ones 0.
 inline const char* scan_double(const char* begin, const char* end, double& value) {
   if (begin != end && *begin == '+') {
     ++begin;
@@ -23,10 +25,10 @@ inline const char* scan_double(const char* begin, const char* end, double& value
   return is_rare ? scan_rare_double(begin, end, value) : after;
 }
 
-// The whole text as a number. Nothing: it is none.
+// The whole text as a number. Nothing: it is no number.
 std::optional<double> parse_double(absl::string_view text);
 
-// The same of a number that may have a comma in place of the decimal point.
+// Like parse_double(), but the number may have a comma in place of the decimal point.
 std::optional<double> parse_decimal_comma(absl::string_view text);
 
 }  // namespace isofield

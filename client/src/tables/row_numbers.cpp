@@ -39,12 +39,13 @@ bool has_comma_between_digits(absl::string_view text) {
   return false;
 }
 
-// Whether commas could be decimal ones.
+// True where commas in the row could be decimal commas.
 bool has_decimal_commas(absl::string_view row) {
   return row.find_first_of(" \t") != absl::string_view::npos && has_comma_between_digits(row);
 }
 
-// Counts in bytes, which the compiler does with vectors. Quotes make the count wrong, and are told.
+// Counts the separators. The counters are bytes, so that the compiler can use vector instructions. `has_quotes` is set
+// where the text has double quotes, which make the count unreliable.
 std::size_t count_separators(const char* at, const char* end, Separator separator, bool& has_quotes) {
   constexpr std::ptrdiff_t kPart = 128;
   std::size_t count = 0;
@@ -74,7 +75,7 @@ RowNumbers::RowNumbers(Separator separator, std::vector<std::size_t> places, Col
   }
 }
 
-// Returns the end of the number at the start of a cell, and of the quotes around it; nullptr: there is none.
+// Reads the number at the start of a cell. Returns its end, after closing quotes if it is quoted; nullptr: it is none.
 const char* RowNumbers::scan_cell(const char* begin, const char* end, double& value) const {
   if (begin != end && *begin == '"') {
     const char* const close = std::find(begin + 1, end, '"');
@@ -92,8 +93,8 @@ const char* RowNumbers::scan_cell(const char* begin, const char* end, double& va
   return number ? stop : nullptr;
 }
 
-// Reads rows as programs write them: the wanted columns come first, parted by one separator each and nothing else.
-// False: the row is another. `at`: its start, and then what comes after the last wanted cell.
+// The fast path, for rows as programs write them: the wanted columns come first, with one separator and nothing else
+// between them. `at` is the start of the row, and becomes the end of the last wanted cell. False: the row is different.
 bool RowNumbers::parse_plain(const char*& at, const char* end, double* numbers) const {
   for (std::size_t i = 0; i < wanted_; ++i) {
     if (i > 0 && (at == end || *at++ != separator_)) return false;
@@ -148,11 +149,12 @@ absl::Status RowNumbers::parse(absl::string_view row, double* numbers) const {
   return names_.empty() ? absl::OkStatus() : check_count(at, end, column);
 }
 
-// `at`: the separator after the last wanted cell, or the next cell of kBlanks.
+// Checks that the row has as many cells as the header. `at` is the separator after the last wanted cell or, with
+// kBlanks, the start of the next cell.
 absl::Status RowNumbers::check_count(const char* at, const char* end, std::size_t columns) const {
   if (at == end && columns == names_.size()) return absl::OkStatus();
   const absl::string_view rest(at, static_cast<std::size_t>(end - at));
-  // Each separator begins a cell, but one at the line's end.
+  // Each separator begins another cell, except one at the line's end.
   bool has_quotes = false;
   const std::size_t separators = count_separators(at, end, separator_, has_quotes);
   if (separator_ != kBlanks && !has_quotes) {

@@ -11,11 +11,11 @@
 
 namespace isofield {
 
-// Reads the numbers of some columns of a table's rows, without a look at the others.
+// Reads the numbers in some columns of a table's rows, without parsing the other columns.
 class RowNumbers {
  public:
-  // `places`: the column of each number that parse() returns, all different. `names`: of all columns; empty: there is
-  // no header, and a row may have any number of columns from the last of the places on.
+  // `places` has the column of each number that parse() returns; no column twice. `names` has the names of all columns.
+  // It is empty where there is no header; then a row may have further columns after the last of the places.
   RowNumbers(Separator separator, std::vector<std::size_t> places, ColumnNames names);
 
   // Writes as many numbers as there are places; they may be infinite or NaN. INVALID_ARGUMENT: a cell is missing or no
@@ -31,9 +31,9 @@ class RowNumbers {
   const Separator separator_;
   const ColumnNames names_;
   const std::size_t wanted_;
-  // The number that each column holds, or kIgnored; up to the last one that is wanted.
+  // For each column up to the last wanted one: the index of the number that it holds, or kIgnored.
   std::vector<int> number_of_;
-  // The numbers are the first columns, in their order.
+  // True where the wanted numbers are the first columns, in their order.
   bool is_plain_ = true;
 };
 

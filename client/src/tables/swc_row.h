@@ -6,15 +6,16 @@
 
 namespace isofield {
 
-// What tells a line of an SWC file from seven numbers of other meaning.
+// The parts of a line that tell whether it belongs to an SWC file or is seven numbers of another meaning.
 struct SwcRow {
   absl::string_view id;
   absl::string_view parent;
-  // The parent is negative or the sample itself.
+  // True where the parent is negative or the sample itself.
   bool is_root = false;
 };
 
-// Nothing: the line is not "id type x y z radius parent", and maybe more, with whole numbers for id, type and parent.
+// Reads a line "id type x y z radius parent", which may have further fields. Nothing: the line is another, or id, type
+// or parent is no whole number.
 std::optional<SwcRow> swc_row(absl::string_view line);
 
 }  // namespace isofield

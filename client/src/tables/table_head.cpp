@@ -7,7 +7,7 @@
 namespace isofield {
 namespace {
 
-// The text of a comment line; nothing: the line is none.
+// The text of a comment line; nothing for any other line.
 std::optional<absl::string_view> comment_text(absl::string_view line) {
   if (absl::ConsumePrefix(&line, "//")) return line;
   const std::size_t text = line.find_first_not_of("#%");
@@ -37,7 +37,7 @@ bool is_header(absl::string_view line, Separator separator) {
 }  // namespace
 
 bool is_comment(absl::string_view line) {
-  // Rows, which are nearly all lines, begin with a digit or a sign.
+  // Nearly all lines are rows, which begin with a digit or a sign; this decides them quickly.
   if (!line.empty() && (absl::ascii_isdigit(line.front()) || line.front() == '-')) return false;
   line = absl::StripAsciiWhitespace(line);
   return line.empty() || line.front() == '#' || line.front() == '%' || absl::StartsWith(line, "//");
@@ -68,7 +68,7 @@ bool TableHead::take(absl::string_view line) {
       set_names(comment_, find_separator(comment_));
     }
   }
-  // Rows may be parted in another way than the header.
+  // Rows may have another separator than the header.
   columns_ = cells_of(line, separator_).size();
   if (!has_names_ || (columns_ != names_.size() && cells_of(line, separator).size() == names_.size())) {
     separator_ = separator;

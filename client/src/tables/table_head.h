@@ -12,20 +12,21 @@ namespace isofield {
 // True for lines that hold nothing: blank ones, and those that begin with '#', '%' or "//".
 bool is_comment(absl::string_view line);
 
-// What the lines before the first row of a table say. Takes line after line until a row comes.
+// What the lines before the first row of a table say: the columns' names and separator. It takes line after line until
+// the first row comes.
 //  - A first line that begins with no number is a header, with the names of the columns.
-//  - So is the last comment before the first row, where it names x, y and z and has a name for each cell of that row:
-//    "# x y z", "//X Y Z".
-//  - "sep=;" before them, which spreadsheets write, is left out.
+//  - The last comment before the first row is a header too, where it names x, y and z and has a name for each cell of
+//    that row: "# x y z", "//X Y Z".
+//  - A line "sep=;" before these, which spreadsheets write, is skipped.
 class TableHead {
  public:
-  // False: not a row yet. True: `line` is the first row, and all is known; no further line is to be taken.
+  // False: `line` is not a row. True: `line` is the first row, and everything is known; this must not be called again.
   bool take(absl::string_view line);
 
-  // Empty: there is no header.
+  // Empty where there is no header.
   const ColumnNames& names() const { return names_; }
   Separator separator() const { return separator_; }
-  // Of the first row, without an empty cell that a separator at the line's end makes.
+  // The number of cells in the first row. An empty cell after a separator at the line's end does not count.
   std::size_t columns() const { return columns_; }
 
  private:
