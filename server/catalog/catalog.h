@@ -21,11 +21,12 @@ struct Entry {
   std::string name;
   std::uint64_t version = 0;
   std::shared_ptr<const v1::Scene> scene;
-  // Those that it was put with: what the names in its custom nodes mean, whatever becomes of the names.
+  // The custom operators at the time of the put. They are what the names in the scene's custom nodes mean, whatever
+  // becomes of these names.
   std::shared_ptr<const blobtree::OperatorTable> operators;
 };
 
-// What must hold for a put to happen.
+// The condition under which a put happens.
 struct Condition {
   bool must_be_absent = false;
   std::uint64_t version = 0;  // 0: any
@@ -40,14 +41,15 @@ class Catalog {
     Entry entry;
     std::uint64_t replaced_version = 0;  // 0: none
   };
-  // INVALID_ARGUMENT: the name. ALREADY_EXISTS, NOT_FOUND, ABORTED: the condition. RESOURCE_EXHAUSTED: full.
+  // INVALID_ARGUMENT: the name is not allowed. ALREADY_EXISTS, NOT_FOUND, ABORTED: the condition does not hold.
+  // RESOURCE_EXHAUSTED: the catalog is full.
   absl::StatusOr<Put> put(const std::string& name, v1::Scene scene,
                           std::shared_ptr<const blobtree::OperatorTable> operators, const Condition& condition);
-  // NOT_FOUND, with the names that there are.
+  // NOT_FOUND: there is no such scene; the message lists the names that there are.
   absl::StatusOr<Entry> get(const std::string& name) const;
   // The scenes whose names come after this one, in the order of their names.
   std::vector<Entry> list(const std::string& after = "") const;
-  // The version that is gone. NOT_FOUND.
+  // Returns the version that is removed. NOT_FOUND: there is no such scene.
   absl::StatusOr<std::uint64_t> remove(const std::string& name);
 
  private:

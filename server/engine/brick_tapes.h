@@ -24,8 +24,8 @@ class BrickTapes {
   BrickTapes(gpu::Device& device, const Kernels& kernels, const ResidentScene& scene, blobtree::BrickList& list);
   absl::Status upload(Session& session) { return windows_.upload(session); }
 
-  // What is to be done, by the kernels that do it: of bricks whose tapes are in one window; single leaves by the kernel
-  // that knows no operator, others by the scene's.
+  // The dispatches of one submission are grouped by kernel. All bricks of a group share one tape window. Tapes that are
+  // a single leaf have the kernel that knows no operator, others the scene's.
   struct Group {
     std::uint32_t window;
     bool is_single;
@@ -35,13 +35,13 @@ class BrickTapes {
   using Jobs = std::map<Group, std::vector<Job>>;
   Group group_of(std::uint32_t brick) const { return {window_of_[brick], bricks_[brick].tape_count == 1}; }
 
-  // Records the jobs, so many a workgroup. Binding 5 lists them, in a buffer that goes to `keep`; the kernel is told by
-  // `constants` which are its own.
+  // Records the jobs, `per_workgroup` in each workgroup. Binding 5 is a buffer that lists them, which is added to
+  // `keep`; `constants` tell the kernel which of them are its own.
   absl::Status run(Session& session, const shaders::Spirv& shader, MeshConstants constants, const Jobs& jobs,
                    std::uint32_t per_workgroup, gpu::Commands::Bindings own, std::vector<gpu::Buffer>& keep);
 
-  // The same of bricks `first` up to first + count that are wanted, a workgroup each: what of them is their number from
-  // `first` on.
+  // Records a job for each wanted brick from `first` to before first + count, in a workgroup of its own. The second
+  // number of the job is the brick's number from `first` on.
   template <class Wanted>
   absl::Status run_each(Session& session, const shaders::Spirv& shader, const MeshConstants& constants,
                         std::uint32_t first, std::uint32_t count, const Wanted& is_wanted, gpu::Commands::Bindings own,

@@ -1,4 +1,4 @@
-// Where requests for values at points wait, and small ones join.
+// A queue in which requests for values at points wait for the device, and small ones are joined.
 #pragma once
 
 #include <absl/status/status.h>
@@ -21,10 +21,11 @@
 namespace isofield::engine {
 
 struct QueueLimits {
-  // Of requests that wait or run: beyond either a new one is refused, unless none is there.
+  // The most requests, and points of these, that may wait or run. Beyond either limit another request is refused,
+  // unless there is none.
   std::uint64_t max_requests = 1024;
   std::uint64_t max_points = 1u << 23;
-  // For how long a submission that could start is held back for more to join it.
+  // How long a submission that could start is held back so that others can join it.
   std::chrono::microseconds delay{0};
 };
 

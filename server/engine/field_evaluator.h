@@ -28,7 +28,7 @@ inline std::size_t components(Quantity q) {
 // Thread-safe.
 class FieldEvaluator {
  public:
-  // `written`: none where all is interpreted.
+  // `written` is null where all tapes are interpreted.
   FieldEvaluator(gpu::Device& device, KernelCache& kernels, Workers& workers, WrittenKernels* written = nullptr)
       : device_(device), kernels_(kernels), workers_(workers), written_(written) {}
 
@@ -40,7 +40,7 @@ class FieldEvaluator {
     gpu::Turns::Turn turn;  // one that is held already
   };
 
-  // Compiles what the others would compile on first use.
+  // Compiles the kernels that the functions below would compile on first use.
   absl::Status prepare(const ResidentScene& scene, Quantity quantity);
 
   // xyz: 3 finite numbers a point; out: components(quantity) numbers a point. Where others write to xyz meanwhile, any
@@ -55,14 +55,14 @@ class FieldEvaluator {
 
  private:
   absl::Status evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene,
-                                std::span<const float> xyz, Quantity quantity, std::span<float> out, const Cancelled& cancelled,
-                                Submission submission);
+                                std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                                const Cancelled& cancelled, Submission submission);
 
   absl::Status evaluate_unsorted(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,
                                  std::span<float> out, const Cancelled& cancelled, Submission submission);
 
-  // Of points as the batch has them, so many at most a submission: dispatch(session, the bindings of points and
-  // results, the last point, workgroups).
+  // Evaluates points in the batch's order, at most `most` in a submission. Calls dispatch(session, the bindings of
+  // points and results, the last point, workgroups) for each submission.
   template <class Dispatch>
   absl::Status evaluate_in_order(std::size_t most, std::span<const float> xyz, Quantity quantity, std::span<float> out,
                                  const Cancelled& cancelled, Submission submission, const Dispatch& dispatch);
@@ -75,11 +75,11 @@ class FieldEvaluator {
   struct Group {
     std::uint32_t first, count, tape_begin, tape_count, window;
   };
-  // What a submission needs until it is done.
+  // The objects that a submission needs until it is done.
   struct Piece {
     std::unique_ptr<blobtree::PlacedPoint[]> sorted;  // null: the points are as the batch has them
     std::vector<gpu::Buffer> buffers;
-    Session session;  // last: it waits for the device, which uses the others
+    Session session;  // the last member, since it waits for the device, which uses the others
   };
   absl::StatusOr<Piece> begin_piece(Submission& submission);
   // Submits when `running`, if any, is done, and takes its place.

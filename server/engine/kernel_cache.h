@@ -20,7 +20,7 @@
 
 namespace isofield::engine {
 
-// What a tape-running kernel is specialised to (shaders/lib/opcodes.glsl).
+// The values to which a kernel that runs tapes is specialised (shaders/lib/opcodes.glsl).
 struct KernelKind {
   std::uint32_t operand_set = 0, operator_set = 0, stack_depth = 0;
   std::uint32_t tape_length = 0;  // 0: any
@@ -28,12 +28,12 @@ struct KernelKind {
   std::uint32_t volume_set = 0;   // slots of volumes, by bits (shaders/lib/volume.glsl)
   std::uint32_t uniform_set = 0;  // parameters that are read from uniform buffers (shaders/lib/parameters.glsl)
 
-  // For every tape pruned from this one.
+  // A kind that runs this tape and every tape pruned from it.
   static KernelKind of(const blobtree::Tape& tape);
-  // For those of them that are one leaf.
+  // A kind that runs those of them that are a single leaf.
   static KernelKind single_leaf(const blobtree::Tape& tape);
 
-  // As specialisation constants 0, 1, 2, ...
+  // The values of specialisation constants 0, 1, 2, ...
   std::array<std::uint32_t, 7> constants() const {
     return {operand_set, operator_set, stack_depth, tape_length, arity, volume_set, uniform_set};
   }
@@ -59,7 +59,7 @@ class KernelCache {
   // Calls `waits` before it waits for the driver to compile.
   absl::StatusOr<gpu::SharedPipeline> get(const shaders::Spirv& shader, const KernelKind& kind = {},
                                           const std::function<void()>& waits = {});
-  // That which suits the device.
+  // The variant of the shader that suits the device.
   const shaders::Spirv& of(const shaders::InRounds& shader) const;
 
   struct Counts {

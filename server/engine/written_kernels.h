@@ -24,32 +24,33 @@ namespace isofield::engine {
 
 struct TierTwoOptions {
   bool is_on = true;
-  // Points that are evaluated of a structure before it is given a kernel.
+  // How many points of a structure are evaluated before it gets a kernel.
   std::uint64_t hot_points = 1u << 20;
-  // Keeps what is compiled; empty: nowhere.
+  // The folder that keeps compiled kernels; if it is empty, nothing does.
   std::string folder;
 };
 
-// Two tapes have one structure where they are the same but for what their records hold: parameters are data, and scenes
-// share kernels. Thread-safe.
+// Kernels that are written for the structure of a tape. Two tapes have the same structure where they differ only in the
+// contents of their records: parameters are data, so that scenes share kernels. Thread-safe.
 class WrittenKernels {
  public:
   WrittenKernels(gpu::Device& device, TierTwoOptions options);
-  // Waits for the kernel that is being compiled.
+  // Waits until the kernel that is being compiled is finished.
   ~WrittenKernels();
 
-  // The longest tapes that get a kernel: of sums and the like, and of operators that take longer than a leaf. Measured
-  // on lavapipe: beyond, sorting the points and pruning the tape gain more.
+  // The most instructions of a tape that gets a kernel: of one with sums and other cheap operators, and of one with
+  // operators that take longer than a leaf. For longer tapes, sorting the points and pruning the tape gain more, as
+  // measured on lavapipe.
   static constexpr std::size_t kMostInstructions = 48, kMostHeavyInstructions = 12;
 
-  // What a point takes of a kernel of such a tape, in instructions of sums and the like.
+  // The work of a point in the kernel of such a tape, in instructions of cheap operators such as sums.
   static std::size_t work_of(const blobtree::Tape& tape);
 
   // The kernel of shaders/tape_points.comp for the scene's whole tape, or null where there is none, not yet, or never.
   // Never waits for one. `points`: how many will be evaluated now.
   gpu::SharedPipeline find(const ResidentScene& scene, bool with_gradient, std::uint64_t points);
 
-  // Until every structure that is hot by now has its kernel, or is known to get none.
+  // Waits until every structure that has reached hot_points has its kernel, or is known to get none.
   void wait();
 
   struct Counts {

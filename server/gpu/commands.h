@@ -22,7 +22,7 @@ class Commands {
   Commands& operator=(Commands&&) noexcept;
   ~Commands();
 
-  // Of a uniform buffer a part may be bound, from a multiple of kUniformAlignment on.
+  // A buffer at a binding. A part of a uniform buffer may be bound, whose offset is a multiple of kUniformAlignment.
   struct Binding {
     std::uint32_t binding;
     const Buffer* buffer;
@@ -41,15 +41,15 @@ class Commands {
   // Records a dispatch of no workgroups, which makes the driver compile the pipeline. `any` is bound in place of all
   // buffers.
   absl::Status dispatch_nothing(const SharedPipeline& pipeline, const Buffer& any);
-  // What follows sees what came before.
+  // Commands after the barrier see the results of those before it.
   void barrier();
   void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset, std::size_t bytes);
   void fill_zero(const Buffer& buffer);
 
-  // Whether anything is recorded that is to be submitted.
+  // True where commands are recorded that have not been submitted.
   bool has_work() const;
   absl::Status submit();
-  // Until the device is done; at once when nothing was submitted.
+  // Waits until the device is done. Returns at once where nothing has been submitted.
   absl::Status wait();
 
   struct Impl;
@@ -57,7 +57,7 @@ class Commands {
  private:
   absl::Status record(const SharedPipeline& pipeline, const Bindings& bindings,
                       std::span<const std::byte> push_constants, std::uint32_t groups);
-  // Waits, and leaves it to be used again.
+  // Waits for the device, and hands the object back to be used again.
   struct Release {
     void operator()(Impl* impl) const;
   };

@@ -19,7 +19,7 @@
 
 namespace isofield::rpc {
 
-// Requests are the bytes of TrackMeshRequests.
+// A stream of TrackMesh whose requests are read as the bytes of TrackMeshRequests.
 using TrackMeshStream = grpc::ServerReaderWriter<v1::TrackMeshResponse, grpc::ByteBuffer>;
 
 class MeshTracking {
@@ -28,7 +28,7 @@ class MeshTracking {
                grpc::ServerContext& context, TrackMeshStream& stream)
       : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits), context_(context), stream_(stream) {}
 
-  // Until the client is done.
+  // Answers requests until the client ends the stream.
   absl::Status run();
 
  private:

@@ -27,12 +27,12 @@ class SceneEditor {
   SceneEditor(catalog::Catalog& catalog, engine::Engine& engine, engine::CompileAhead* ahead)
       : catalog_(catalog), engine_(engine), ahead_(ahead) {}
 
-  // Errors: those of the catalog. `lease`: the scene's resident form.
+  // Stores a scene. `lease` is its resident form. Errors are those of the catalog.
   absl::StatusOr<StoredScene> put(const std::string& name, v1::Scene scene, engine::SceneLease lease,
                                   std::shared_ptr<const blobtree::OperatorTable> operators,
                                   const catalog::Condition& condition);
-  // `expected_version` 0: any; an edit that lost a race then applies to what won. ABORTED: another version, or 17 races
-  // lost in a row.
+  // Edits a scene. With `expected_version` 0 the scene may have any version, and an edit that has lost a race is
+  // applied to the scene that has won. ABORTED: the scene has another version, or the edit has lost 17 races in a row.
   absl::StatusOr<StoredScene> edit(const std::string& name, const std::vector<blobtree::ParameterEdit>& edits,
                                    std::uint64_t expected_version);
   absl::Status remove(const std::string& name);
@@ -44,8 +44,8 @@ class SceneEditor {
   catalog::Catalog& catalog_;
   engine::Engine& engine_;
   engine::CompileAhead* const ahead_;
-  // What is resident follows what is in the catalog, step by step: or of two puts at once the first could be kept after
-  // the second has dropped it, and stay for good.
+  // Makes the resident scenes follow the catalog step by step. Otherwise, of two puts at once, the first scene could be
+  // kept after the second put has dropped it, and would stay for good.
   std::mutex residency_mutex_;
 };
 

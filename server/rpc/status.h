@@ -1,4 +1,4 @@
-// From the house's statuses to gRPC's.
+// Translates absl's statuses to gRPC's.
 #pragma once
 
 #include <absl/status/status.h>

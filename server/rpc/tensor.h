@@ -17,7 +17,7 @@ namespace isofield::rpc {
 // Rows of numbers as float32, in place where the tensor holds that and converted where it holds float64.
 class RowArray {
  public:
-  // What the tensor is, in errors.
+  // The words by which errors speak of the tensor.
   struct Words {
     const char* tensor;    // "points"
     const char* rows;      // "points"
@@ -28,8 +28,8 @@ class RowArray {
   static absl::StatusOr<RowArray> read(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
                                        const Words& words);
 
-  // The same in shared memory, which the client may change meanwhile: numbers in place do. And the errors of
-  // SharedRegions::find.
+  // Reads an array in shared memory. The client may change it meanwhile, and numbers that are used in place change with
+  // it. Errors are the same, and those of SharedRegions::find.
   static absl::StatusOr<RowArray> read(const v1::SharedTensor& tensor, const SharedRegions& regions,
                                        std::uint64_t columns, std::uint64_t max_rows, const Words& words);
 
@@ -37,7 +37,7 @@ class RowArray {
 
  private:
   using Shape = google::protobuf::RepeatedField<std::uint64_t>;
-  // All but the bytes.
+  // Checks everything but the bytes.
   static absl::Status check(v1::Tensor::DType dtype, const Shape& shape, std::uint64_t columns, std::uint64_t max_rows,
                             const Words& words);
   static absl::StatusOr<RowArray> read_numbers(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
@@ -52,12 +52,13 @@ class RowArray {
 // Points as float32.
 class PointArray {
  public:
-  // INVALID_ARGUMENT: dtype, shape or size, or a coordinate that is not finite. RESOURCE_EXHAUSTED: more than
-  // max_points. `tensor` must outlive the result.
+  // INVALID_ARGUMENT: dtype, shape or size is wrong, or a coordinate is not finite. RESOURCE_EXHAUSTED: there are more
+  // than max_points. `tensor` must outlive the result.
   static absl::StatusOr<PointArray> read(const v1::Tensor& tensor, std::uint64_t max_points,
                                          const RowArray::Words& words = {"points", "points",
                                                                          "send chunks by EvaluateStream"});
-  // The same in shared memory, where what was found finite need not stay so.
+  // Reads points in shared memory. Coordinates are checked once; the client may change them to others that are not
+  // finite.
   static absl::StatusOr<PointArray> read(const v1::SharedTensor& tensor, const SharedRegions& regions,
                                          std::uint64_t max_points,
                                          const RowArray::Words& words = {"shared_points", "points",
@@ -78,7 +79,7 @@ std::span<float> make_float_tensor(std::initializer_list<std::uint64_t> shape, v
 // Turns a tensor's bytes into plain numbers of the same values.
 void write_as_numbers(v1::Tensor& tensor);
 
-// Makes a tensor of rows of so many numbers.
+// Fills a tensor with rows of `columns` numbers each.
 void set_rows(std::span<const float> numbers, std::uint64_t columns, v1::Tensor& tensor);
 void set_rows(std::span<const std::uint32_t> numbers, std::uint64_t columns, v1::Tensor& tensor);
 void set_rows(std::span<const std::uint8_t> numbers, std::uint64_t columns, v1::Tensor& tensor);

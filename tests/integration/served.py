@@ -1,4 +1,4 @@
-"""Starts a daemon for the Python tests, and makes modules from the .proto files alone, as users of other languages do."""
+"""Starts a daemon for Python tests, and makes modules from the .proto files alone, as users of other languages do."""
 
 import contextlib
 import pathlib

@@ -12,7 +12,7 @@
 
 namespace isofield {
 
-// What the commands that need a mesh ask for, and the request itself.
+// The options of the commands that need a mesh, and the request itself.
 struct MeshFlags {
   std::string scene;
   std::optional<double> cell;
@@ -23,9 +23,10 @@ struct MeshFlags {
   ImportFlags import;
 
   void add_to(CLI::App& command);
-  // What they ask for, without asking.
+  // The request that the options make, without sending it.
   absl::StatusOr<v1::MeshRequest> message() const;
-  // With a progress line on a terminal. `seconds`: from the request to the last byte.
+  // Sends the request, and shows a progress line on a terminal. `seconds` is the time from the request to the last
+  // byte.
   absl::StatusOr<Mesh> request(const Context& context, Client& client, double& seconds) const;
   // Adds the flag's name where the server speaks of bounds, a cell size or a resolution.
   absl::Status explain(const absl::Status& refusal) const;

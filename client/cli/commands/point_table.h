@@ -15,13 +15,13 @@
 
 namespace isofield {
 
-// What the commands share that ask a question of many points and write a table of answers.
+// The arguments of commands that ask a question about many points and write a table of answers.
 struct PointTableArguments {
   std::string scene, points, output = "-";
   std::optional<double> iso;
   ImportFlags flags;
 
-  // `points_name`: the option that names the file of points.
+  // `points_name` is the option that names the file of points.
   void add_to(CLI::App& command, const std::string& points_name);
 };
 
@@ -32,7 +32,7 @@ absl::StatusOr<std::vector<float>> read_points(const std::string& path, std::vec
 // Prints notes on the standard error; with --json nothing, since they are a part of the object there.
 void print_notes(const Context& context, const std::vector<std::string>& notes);
 
-// Reads, asks and writes. `ask` fills the table from the answers.
+// Reads the points, asks the server and writes the answers. `ask` fills the table from the answers.
 using AskPoints =
     std::function<absl::Status(Client& client, const v1::SceneRef& scene, std::span<const float> xyz, Table& table)>;
 absl::Status answer_points(const Context& context, const PointTableArguments& arguments, const AskPoints& ask,

@@ -10,16 +10,16 @@ namespace isofield {
 // group elements that it lacks, M. Mantina et al., J. Phys. Chem. A 113 (2009).
 struct Element {
   absl::string_view symbol;
-  // 0: neither paper has one.
+  // 0 where neither paper has one.
   double radius;
 };
 
-// Of elements without a radius.
+// The radius, in angstrom, of atoms whose element is unknown or has no radius.
 inline constexpr double kUnknownElementRadius = 2.0;
 
 // The element of a symbol in any case; D and T (deuterium and tritium) are H. Null: there is no such element.
 const Element* find_element(absl::string_view symbol);
-// By atomic number, from 1.
+// The element of an atomic number, from 1. Null: there is no such element.
 const Element* find_element(long long number);
 
 }  // namespace isofield

@@ -19,9 +19,9 @@ class LineReader {
 
   // False at the end.
   bool next(absl::string_view& line);
-  // Keeps leading blanks, for formats of fixed columns.
+  // The same, but keeps blanks at both ends, for formats of fixed columns.
   bool next_raw(absl::string_view& line);
-  // From 1, of the line last read.
+  // The number of the line that was read last, from 1.
   std::size_t number() const { return number_; }
 
  private:
