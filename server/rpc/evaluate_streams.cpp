@@ -107,7 +107,7 @@ class EvaluateStreams::Stream {
       points_answered_ += work.points.points.size();
       work_.pop_front();
     }
-    if (!is_ok && !outcome_) decide(absl::CancelledError("the client is gone"));
+    if (!is_ok && !outcome_) decide(client_gone());
     leave(std::move(lock));
   }
 

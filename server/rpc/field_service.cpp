@@ -21,10 +21,6 @@ namespace {
 // message holds as many where the client takes it.
 constexpr std::uint64_t kGridSlab = 1u << 18;
 
-absl::Status client_gone() {
-  return absl::CancelledError("the client is gone");
-}
-
 absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& request, const Limits& limits) {
   blobtree::Lattice lattice;
   ISOFIELD_ASSIGN_OR_RETURN(lattice.origin, read_vector("origin", request.origin()));

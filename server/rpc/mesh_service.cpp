@@ -31,10 +31,6 @@ bool write_rows(grpc::ServerWriter<v1::MeshResponse>& writer, const std::vector<
   });
 }
 
-absl::Status client_gone() {
-  return absl::CancelledError("the client is gone");
-}
-
 // The part of the progress that meshing makes, where the mesh is simplified after that.
 constexpr double kMeshingPart = 0.4;
 

@@ -5,6 +5,7 @@
 #include "base/quoted.h"
 #include "engine/status_macros.h"
 #include "rpc/answer_limit.h"
+#include "rpc/status.h"
 #include "rpc/tensor.h"
 #include "rpc/unreadable_requests.h"
 
@@ -105,7 +106,7 @@ absl::Status MeshTracking::write(v1::MeshUpdate update) {
   v1::TrackMeshResponse response;
   *response.mutable_update() = std::move(update);
   if (stream_.Write(response)) return absl::OkStatus();
-  return absl::CancelledError("the client is gone");
+  return client_gone();
 }
 
 }  // namespace isofield::rpc

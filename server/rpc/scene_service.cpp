@@ -70,7 +70,7 @@ grpc::Status SceneService::GetSceneParts(grpc::ServerContext*, const v1::GetScen
     part.clear_summary();
     return is_written;
   });
-  return is_sent ? grpc::Status::OK : grpc::Status(grpc::StatusCode::CANCELLED, "the client is gone");
+  return is_sent ? grpc::Status::OK : to_grpc(client_gone());
 }
 
 grpc::Status SceneService::ListScenes(grpc::ServerContext*, const v1::ListScenesRequest* request,

@@ -99,7 +99,8 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
     spacing.fill(std::max(extents[0], extents[1]) / (kDefaultCount - 1));
   }
   if (request.counts().empty()) {
-    // A sample more than steps. Supports are rounded outwards by some 1e-5 of themselves, which must not add another.
+    // There is one more sample than steps. Supports are rounded outwards by some 1e-5 of themselves, which must not add
+    // another one.
     for (int i = 0; i < 2; ++i) counts[i] = std::ceil(extents[i] / spacing[i] * (1 - 1e-4)) + 1;
   }
   if (!(counts[0] * counts[1] <= static_cast<double>(max_points))) {

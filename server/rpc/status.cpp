@@ -10,4 +10,8 @@ grpc::Status to_grpc(const absl::Status& status) {
           base::printable(status.message(), kMaxStatusBytes, kMaxStatusBytes)};
 }
 
+absl::Status client_gone() {
+  return absl::CancelledError("the client is gone");
+}
+
 }  // namespace isofield::rpc

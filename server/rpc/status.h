@@ -14,4 +14,7 @@ inline constexpr std::size_t kMaxStatusBytes = 2048;
 // escaped.
 grpc::Status to_grpc(const absl::Status& status);
 
+// CANCELLED: nobody is there to take an answer.
+absl::Status client_gone();
+
 }  // namespace isofield::rpc

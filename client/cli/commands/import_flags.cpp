@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "commands/checks.h"
+
 namespace isofield {
 
 void ImportFlags::add_to(CLI::App& command) {
@@ -15,13 +17,13 @@ void ImportFlags::add_to(CLI::App& command) {
   command
       .add_option("--range-factor", options.range_factor,
                   "Range of a piece, as a multiple of its radius (default: neurons 1, molecules 0.5)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->group(kGroup);
   command.add_option("--range", options.range, "Range of every piece, in model units")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->group(kGroup);
   command.add_option("--radius", options.radius, "Bare points: R of the soft objects (default: 0.5)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->group(kGroup);
   command
       .add_option("--radius-column", options.radius_column,
@@ -31,14 +33,14 @@ void ImportFlags::add_to(CLI::App& command) {
   command
       .add_option("--min-radius", options.min_radius,
                   "SWC: least radius of a sample (default: samples without a radius have their parent's)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->group(kGroup);
   command.add_flag("--apply-scale", options.apply_scale, "SWC: multiply lengths by the file's \"# SCALE x y z\"")
       ->group(kGroup);
   command
       .add_option("--model,--frame", options.frame,
                   "Molecules: which model (PDB, mmCIF) or frame (XYZ) is taken, from 1 (default: the first)")
-      ->check(CLI::PositiveNumber)
+      ->check(whole(1, 1u << 31))
       ->group(kGroup);
   command.add_option("--chain", options.chains, "PDB, mmCIF: only these chains, such as A,B")
       ->delimiter(',')

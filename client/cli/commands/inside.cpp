@@ -12,7 +12,8 @@ void add_inside_command(CLI::App& app, Context& context) {
   command->callback([&context, arguments] {
     context.outcome = answer_points(
         context, *arguments,
-        [&](Client& client, const v1::SceneRef& scene, std::span<const float> xyz, Table& table) -> absl::Status {
+        [&](Client& client, const v1::SceneRef& scene, std::span<const float> xyz, Table& table,
+            std::vector<std::string>&) -> absl::Status {
           v1::ContainsRequest request;
           *request.mutable_scene() = scene;
           if (arguments->iso) request.set_iso(*arguments->iso);

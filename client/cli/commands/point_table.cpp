@@ -58,11 +58,11 @@ absl::Status answer_points(const Context& context, const PointTableArguments& ar
   std::vector<std::string> notes;
   const auto xyz = read_points(arguments.points, notes, wanted);
   if (!xyz.ok()) return xyz.status();
-  print_notes(context, notes);
   auto client = context.connect();
   if (!client.ok()) return client.status();
   Table table;
-  if (auto status = ask(*client, *scene, *xyz, table); !status.ok()) return status;
+  if (auto status = ask(*client, *scene, *xyz, table, notes); !status.ok()) return status;
+  print_notes(context, notes);
   auto file = OutputFile::create(arguments.output);
   if (!file.ok()) return file_error(file.status());
   absl::Status status = table.write(arguments.output, **file);

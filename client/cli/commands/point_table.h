@@ -32,9 +32,9 @@ absl::StatusOr<std::vector<float>> read_points(const std::string& path, std::vec
 // Prints notes on the standard error; with --json nothing, since they are a part of the object there.
 void print_notes(const Context& context, const std::vector<std::string>& notes);
 
-// Reads the points, asks the server and writes the answers. `ask` fills the table from the answers.
-using AskPoints =
-    std::function<absl::Status(Client& client, const v1::SceneRef& scene, std::span<const float> xyz, Table& table)>;
+// Reads the points, asks the server and writes the answers. `ask` fills the table from the answers, and may add notes.
+using AskPoints = std::function<absl::Status(Client& client, const v1::SceneRef& scene, std::span<const float> xyz,
+                                             Table& table, std::vector<std::string>& notes)>;
 absl::Status answer_points(const Context& context, const PointTableArguments& arguments, const AskPoints& ask,
                            const VectorColumns& wanted = {});
 

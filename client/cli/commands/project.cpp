@@ -1,7 +1,8 @@
+#include <absl/strings/str_cat.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "commands/checks.h"
@@ -30,7 +31,8 @@ void add_project_command(CLI::App& app, Context& context) {
   command->callback([&context, arguments] {
     context.outcome = answer_points(
         context, *arguments,
-        [&](Client& client, const v1::SceneRef& scene, std::span<const float> xyz, Table& table) -> absl::Status {
+        [&](Client& client, const v1::SceneRef& scene, std::span<const float> xyz, Table& table,
+            std::vector<std::string>& notes) -> absl::Status {
           v1::ProjectPointsRequest request;
           *request.mutable_scene() = scene;
           if (arguments->iso) request.set_iso(*arguments->iso);
@@ -49,8 +51,8 @@ void add_project_command(CLI::App& app, Context& context) {
           table.add("out_of_reach", std::span<const std::uint8_t>(out_of_reach));
           const auto count = std::count(out_of_reach.begin(), out_of_reach.end(), 1);
           if (count > 0) {
-            std::fprintf(stderr, "isofield: note: %zu of %zu points are out of reach of the surface (out_of_reach 1)\n",
-                         static_cast<std::size_t>(count), out_of_reach.size());
+            notes.push_back(absl::StrCat(count, " of ", out_of_reach.size(),
+                                         " points are out of reach of the surface (out_of_reach 1)"));
           }
           return absl::OkStatus();
         });

@@ -29,12 +29,10 @@ absl::StatusOr<std::vector<float>> read_directions(const RayArguments& arguments
   return all;
 }
 
-absl::Status cast(const Context& context, Client& client, const v1::SceneRef& scene, const RayArguments& arguments,
-                  std::span<const float> origins, Table& table) {
-  std::vector<std::string> notes;
+absl::Status cast(Client& client, const v1::SceneRef& scene, const RayArguments& arguments,
+                  std::span<const float> origins, Table& table, std::vector<std::string>& notes) {
   const auto directions = read_directions(arguments, origins.size() / 3, notes);
   if (!directions.ok()) return directions.status();
-  print_notes(context, notes);
   v1::CastRaysRequest request;
   *request.mutable_scene() = scene;
   if (arguments.iso) request.set_iso(*arguments.iso);
@@ -99,8 +97,9 @@ void add_ray_command(CLI::App& app, Context& context) {
     }
     context.outcome =
         answer_points(context, *arguments,
-                      [&](Client& client, const v1::SceneRef& scene, std::span<const float> origins, Table& table) {
-                        return cast(context, client, scene, *arguments, origins, table);
+                      [&](Client& client, const v1::SceneRef& scene, std::span<const float> origins, Table& table,
+                          std::vector<std::string>& notes) {
+                        return cast(client, scene, *arguments, origins, table, notes);
                       },
                       {VectorRole::kOrigin});
   });

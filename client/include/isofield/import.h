@@ -113,9 +113,8 @@ std::optional<ImportOperator> import_operator(const std::string& name);
 //    sample of another type begins at the soma's surface with that sample's radius. Edges within the soma are left out,
 //    unless they are thicker than it.
 //  - A header "# SCALE x y z" is reported. With ImportOptions::apply_scale coordinates are multiplied by it, axis by
-//    axis, and radii by the geometric mean of the three, so that three equal factors are a change of unit. (Cannon's
-//    cvapp, which introduced the header, states in it by what it has multiplied the coordinates, and leaves radii as
-//    they are.)
+//    axis, and radii by the geometric mean of the three, so that three equal factors are a change of unit. It is not
+//    applied unasked, since some programs note in it what they have multiplied the coordinates by already.
 //  - Samples without a usable id, or with a coordinate that is not within 2.5e8, are dropped; their children, and those
 //    of samples that do not exist, become roots. Of doubled ids the first is used. A cycle is cut at its first sample
 //    in the file. A sample without a radius within [1e-9, 2.5e8] gets ImportOptions::min_radius, or its parent's; a

@@ -93,9 +93,8 @@ class AtomTable {
   }
 
   static bool read_center(const Row& row, std::array<double, 3>& center) {
-    constexpr double kLargest = 1e15;
     center = {gemmi::cif::as_number(row[kX]), gemmi::cif::as_number(row[kY]), gemmi::cif::as_number(row[kZ])};
-    return std::all_of(center.begin(), center.end(), [](double c) { return std::abs(c) <= kLargest; });
+    return std::all_of(center.begin(), center.end(), [](double c) { return std::abs(c) <= kLargestLength; });
   }
 
   AtomSource source_of(const Row& row, std::size_t index) const {

@@ -22,8 +22,6 @@ namespace {
 constexpr double kSoftRadius = 0.5;
 // The r at which w(r) = (1 - r^2)^3, the field of soft objects in scene.proto, is 1/2.
 const double kSurface = std::sqrt(1 - std::cbrt(0.5));
-// Squares of numbers up to this one fit into float32.
-constexpr double kLargest = 1e15;
 constexpr char kDropped[] = "line dropped: expected \"x y z\" with finite numbers of a usable size";
 
 // The column of R, or nothing where there is none. INVALID_ARGUMENT: the column that is asked for is not there.
@@ -116,12 +114,12 @@ class PointImport {
       return;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (std::abs(numbers[axis]) <= kLargest) continue;
+      if (std::abs(numbers[axis]) <= kLargestLength) continue;
       note(report, kDropped, number, line);
       return;
     }
     double soft_radius = options_.radius.value_or(kSoftRadius);
-    if (has_radius_ && numbers[3] > 0 && numbers[3] <= kLargest) {
+    if (has_radius_ && numbers[3] > 0 && numbers[3] <= kLargestLength) {
       soft_radius = numbers[3];
     } else if (has_radius_) {
       note(report, absl::StrCat("radius not > 0 or not of a usable size: ", soft_radius, " used"), number, line);

@@ -9,8 +9,6 @@ namespace isofield {
 
 // The factors of the first usable line "# SCALE x y z" of a file; all are 1 where there is none or `apply` is false.
 // Reports what the header states and whether it is applied.
-//
-// Cannon's cvapp, which introduced the header, multiplies coordinates by it and leaves radii as they are.
 Vector3 read_swc_scale(const std::string& text, bool apply, ImportReport& report);
 
 }  // namespace isofield
