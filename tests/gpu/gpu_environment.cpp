@@ -29,7 +29,12 @@ class GpuEnvironment : public testing::Environment {
       std::exit(1);
     }
     the_device = *std::move(device);
-    the_kernels = std::make_unique<engine::KernelCache>(*the_device);
+    // The tests need thousands of kernels. What they are specialised to is kept, so that one test process finds what
+    // another has made.
+    const char* const folder = std::getenv("ISOFIELD_TESTS_KERNELS");
+    auto specialised = std::make_shared<engine::SpecialisedKernels>(folder ? folder : "");
+    the_kernels = std::make_unique<engine::KernelCache>(
+        *the_device, engine::KernelOptions{.most = 4096, .specialised = std::move(specialised)});
     std::cout << "device: " << the_device->description().name << ", subgroups of "
               << the_device->description().subgroup_size << (options.validation ? "" : ", WITHOUT VALIDATION") << "\n";
   }
