@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "address.h"
+
 namespace isofield {
 namespace {
 
@@ -24,7 +26,9 @@ absl::Status from_grpc(const grpc::Status& status, const std::string& address) {
         return absl::UnavailableError(absl::StrCat("the connection to isofieldd at ", address, " was lost (", detail,
                                                    "); see the daemon's log, then try again"));
       }
-      if (absl::StrContains(detail, "Connection refused") || absl::StrContains(detail, "No such file or directory")) {
+      // gRPC does not say of an address of TCP that it refuses connections.
+      if (absl::StrContains(detail, "Connection refused") || absl::StrContains(detail, "No such file or directory") ||
+          (absl::StrContains(detail, "failed to connect") && is_refused(address))) {
         return absl::UnavailableError(absl::StrCat("nothing listens at ", address, "; start isofieldd there"));
       }
       return absl::UnavailableError(

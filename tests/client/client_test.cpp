@@ -290,6 +290,15 @@ TEST_F(ClientTest, StreamsHaveADeadlineWhenAsked) {
   EXPECT_EQ(client->mesh(request).status().code(), absl::StatusCode::kDeadlineExceeded);
 }
 
+TEST(Client, APortThatNobodyListensAtIsTold) {
+  // Port 1 of the loopback is nobody's on a machine of today.
+  auto client = Client::connect("127.0.0.1:1");
+  ASSERT_TRUE(client.ok());
+  const auto status = client->info().status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(status.message(), "nothing listens at 127.0.0.1:1; start isofieldd there");
+}
+
 TEST(Client, NoServerIsToldAtOnce) {
   const TemporaryDirectory directory;
   auto client = Client::connect("unix:" + directory.path("nothing"));
