@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "blobtree/extent.h"
+
 namespace isofield::blobtree {
 namespace {
 
@@ -20,8 +22,7 @@ constexpr std::size_t kLeastPart = 1u << 13, kMostParts = 8;
 
 absl::StatusOr<PointGrid> PointGrid::make(const Tape& tape, BrickList& bricks, const std::function<bool()>& cancelled) {
   const Box& box = tape.support;
-  const double longest =
-      box.empty() ? 0 : std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+  const double longest = box.empty() ? 0 : longest_edge(box);
   if (!(longest > 0 && std::isfinite(longest))) {
     return absl::FailedPreconditionError("the scene's support is empty or has no end");
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "blobtree/extent.h"
 #include "engine/mesh_lattice.h"
 #include "engine/status_macros.h"
 
@@ -95,12 +96,8 @@ double rough_area(const Leaf& leaf) {
   return area * scale * scale;
 }
 
-double longest_edge(const Box& box) {
-  return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
-}
-
 double longest_edge(const Tape& tape, const MeshRequest& request) {
-  return longest_edge(request.bounds.value_or(tape.support));
+  return blobtree::longest_edge(request.bounds.value_or(tape.support));
 }
 
 // Bricks that a request takes with cells of another size.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "blobtree/extent.h"
 #include "engine/likely_edits.h"
 #include "engine/mesh_request.h"
 
@@ -108,11 +109,10 @@ void CompileAhead::compile_for(const Edited& edited) {
 
 void CompileAhead::rehearse(const SceneLease& scene) {
   const blobtree::Box& support = scene->tape().support;
-  const bool is_bounded = !support.empty() && support.max.x < blobtree::kMaxCoordinate;
+  const bool is_bounded = !support.empty() && blobtree::is_bounded(scene->tape());
   MeshRequest request{.iso = scene->tape().law == operators::Law::kSigned ? 0.0 : 0.5};
   if (!is_bounded) request.bounds = blobtree::Box{{-1, -1, -1}, {1, 1, 1}};
-  const blobtree::Box box = is_bounded ? support : *request.bounds;
-  const double longest = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+  const double longest = blobtree::longest_edge(is_bounded ? support : *request.bounds);
   request.cell_size = std::max(longest / kCells, least_cell_size(scene->tape(), request));
   // Errors are ignored here, since a request that needs the kernel will report them.
   (void)engine_->mesher().mesh(*scene, request, {.cancelled = [this] { return is_over(); }});

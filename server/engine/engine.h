@@ -63,7 +63,6 @@ class Engine {
   gpu::Device& device() { return *device_; }
   FieldEvaluator& fields() { return fields_; }
   WrittenKernels& written_kernels() { return written_; }
-  const KernelCache& kernels() const { return kernels_; }
   Mesher& mesher() { return mesher_; }
   RayCaster& rays() { return rays_; }
   SurfaceProjector& projector() { return projector_; }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "engine/least_used.h"
 #include "engine/request_times.h"
 #include "engine/status_macros.h"
 #include "gpu/commands.h"
@@ -110,12 +111,7 @@ KernelCache::Compiled KernelCache::compile(const shaders::Spirv& shader, const K
 }
 
 void KernelCache::forget_least_used() {
-  auto oldest = kernels_.end();
-  for (auto it = kernels_.begin(); it != kernels_.end(); ++it) {
-    if (it->second.is_ready && (oldest == kernels_.end() || it->second.last_used < oldest->second.last_used)) {
-      oldest = it;
-    }
-  }
+  const auto oldest = least_used(kernels_, [](const Entry& entry) { return entry.is_ready; });
   if (oldest != kernels_.end()) kernels_.erase(oldest);
 }
 

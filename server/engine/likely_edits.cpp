@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "blobtree/extent.h"
+
 namespace isofield::engine {
 namespace {
 
@@ -18,11 +20,9 @@ class Draft {
   Draft(const v1::Scene& scene, const blobtree::Tape& tape)
       : scene_(scene), is_signed_(tape.law == operators::Law::kSigned) {
     if (scene_.root().empty()) scene_.set_root(reference(scene_.nodes_size() - 1));
-    const blobtree::Box& box = tape.support;
-    if (!box.empty() && box.max.x < blobtree::kMaxCoordinate) {
-      corner_ = box.max;
-      size_ = kSize * std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
-    }
+    if (tape.support.empty() || !blobtree::is_bounded(tape)) return;
+    corner_ = tape.support.max;
+    size_ = kSize * blobtree::longest_edge(tape.support);
   }
 
   v1::Node& add() { return *scene_.add_nodes(); }

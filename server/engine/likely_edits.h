@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "blobtree/scene.h"
 #include "blobtree/tape.h"
 #include "isofield/v1/scene.pb.h"
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "blobtree/extent.h"
 #include "engine/cell_size.h"
 #include "engine/mesh_rounding.h"
 #include "engine/status_macros.h"
@@ -50,7 +51,7 @@ absl::Status refusal(const blobtree::Tape& tape, const MeshRequest& request, boo
 
 double least_cell_size(const blobtree::Tape& tape, const MeshRequest& request) {
   const Box b = request.bounds.value_or(tape.support);
-  const double edge = std::max({b.max.x - b.min.x, b.max.y - b.min.y, b.max.z - b.min.z});
+  const double edge = blobtree::longest_edge(b);
   // Far from the origin float32 tells points apart no better than at that distance: a cell is 4 such steps at least.
   const double reach = std::max({std::abs(b.min.x), std::abs(b.min.y), std::abs(b.min.z), std::abs(b.max.x),
                                  std::abs(b.max.y), std::abs(b.max.z)});

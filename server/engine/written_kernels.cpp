@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/least_used.h"
 #include "engine/status_macros.h"
 #include "engine/tape_writer.h"
 #include "shaders/tape_compiler.h"
@@ -90,10 +91,7 @@ void WrittenKernels::forget_cold() {
 
 // A structure that loses its kernel must become hot again to get another.
 void WrittenKernels::forget_least_used() {
-  auto oldest = entries_.end();
-  for (auto it = entries_.begin(); it != entries_.end(); ++it) {
-    if (it->second.kernel && (oldest == entries_.end() || it->second.last_used < oldest->second.last_used)) oldest = it;
-  }
+  const auto oldest = least_used(entries_, [](const Entry& entry) { return entry.kernel != nullptr; });
   if (oldest == entries_.end()) return;
   entries_.erase(oldest);
   --held_;

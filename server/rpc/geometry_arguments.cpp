@@ -6,17 +6,13 @@
 #include <cmath>
 #include <string>
 
-#include "blobtree/scene.h"
+#include "blobtree/extent.h"
 
 namespace isofield::rpc {
 namespace {
 
 bool is_coordinate(double x) {
   return std::abs(x) <= blobtree::kMaxCoordinate;
-}
-
-bool is_bounded(const blobtree::Tape& tape) {
-  return tape.support.empty() || tape.support.max.x < blobtree::kMaxCoordinate;
 }
 
 }  // namespace
@@ -92,8 +88,7 @@ absl::Status check_bounded(const blobtree::Tape& tape, const std::optional<blobt
 std::optional<double> longest_support_edge(const blobtree::Tape& tape) {
   if (tape.support.empty()) return 1.0;
   if (!is_bounded(tape)) return std::nullopt;
-  const blobtree::dvec3 edges = tape.support.max - tape.support.min;
-  return std::max({edges.x, edges.y, edges.z});
+  return blobtree::longest_edge(tape.support);
 }
 
 }  // namespace isofield::rpc

@@ -15,6 +15,8 @@ import subprocess
 import sys
 import tempfile
 
+from readers import loud, readers_python
+
 SKIPPED = 77
 
 # Van der Waals radii of the elements in the files; others have 2.0.
@@ -38,26 +40,6 @@ def read(reader, path, frame, assembly):
 
 print("\\n" + json.dumps([read(*wanted) for wanted in json.load(sys.stdin)]))
 """
-
-
-def loud(text):
-    print(f"\n******** {text} ********\n", file=sys.stderr, flush=True)
-
-
-def readers_python(folder):
-    """The interpreter of the environment with the readers, which is made on first use."""
-    python = folder / "bin" / "python"
-    complete = folder / "complete"
-    if not complete.exists():
-        try:
-            subprocess.run([sys.executable, "-m", "venv", "--clear", folder], check=True, capture_output=True)
-            subprocess.run([python, "-m", "pip", "install", "--quiet", "gemmi", "ase"], check=True,
-                           capture_output=True, timeout=600)
-        except (OSError, subprocess.SubprocessError) as error:
-            loud(f"SKIPPED, NOT PASSED: gemmi and ase cannot be installed ({error})")
-            sys.exit(SKIPPED)
-        complete.touch()
-    return python
 
 
 def changed(path, name, change, folder):
@@ -88,7 +70,9 @@ def main():
     if not (data / "4hhb.pdb").exists():
         loud(f"SKIPPED, NOT PASSED: {data}/4hhb.pdb is missing (set ISOFIELD_SHARED)")
         sys.exit(SKIPPED)
-    python = readers_python(pathlib.Path(readers).absolute())
+    python = readers_python(readers, ["gemmi", "ase"], "SKIPPED, NOT PASSED")
+    if python is None:
+        sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory(prefix="isofield-") as name:
         folder = pathlib.Path(name)
         whole = data / "4hhb.pdb"

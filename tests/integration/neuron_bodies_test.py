@@ -17,7 +17,10 @@ import sys
 import tempfile
 import time
 
+from readers import loud, readers_python
+
 SKIPPED = 77
+UNCOUNTED = "THE TREES ARE COUNTED BY THIS TEST ALONE"
 
 # Prints an object: by file, the trees that navis finds; files that it does not read are left out.
 COUNT_TREES = """
@@ -36,32 +39,12 @@ print("\\n" + json.dumps(found))
 """
 
 
-def loud(text):
-    print(f"\n******** {text} ********\n", file=sys.stderr, flush=True)
-
-
-def readers_python(folder):
-    """The interpreter of the environment with navis, which is made on first use; None where that fails."""
-    python = folder / "bin" / "python"
-    complete = folder / "complete"
-    if not complete.exists():
-        try:
-            subprocess.run([sys.executable, "-m", "venv", "--clear", folder], check=True, capture_output=True)
-            subprocess.run([python, "-m", "pip", "install", "--quiet", "navis"], check=True,
-                           capture_output=True, timeout=600)
-        except (OSError, subprocess.SubprocessError) as error:
-            loud(f"THE TREES ARE COUNTED BY THIS TEST ALONE: navis cannot be installed ({error})")
-            return None
-        complete.touch()
-    return python
-
-
 def count_by_readers(python, files):
     if python is None:
         return {}
     run = subprocess.run([python, "-c", COUNT_TREES, *map(str, files)], capture_output=True, text=True)
     if run.returncode != 0:
-        loud(f"THE TREES ARE COUNTED BY THIS TEST ALONE: navis fails: {run.stderr[-400:]}")
+        loud(f"{UNCOUNTED}: navis fails: {run.stderr[-400:]}")
         return {}
     return json.loads(run.stdout.splitlines()[-1])
 
@@ -119,7 +102,7 @@ def main():
     if not files:
         loud(f"SKIPPED, NOT PASSED: {data}/swc is missing (set ISOFIELD_SHARED)")
         sys.exit(SKIPPED)
-    counted = count_by_readers(readers_python(pathlib.Path(readers)), files)
+    counted = count_by_readers(readers_python(readers, ["navis"], UNCOUNTED), files)
     failures = []
     print(f"{'file':34} {'trees':>5} {'by':6} {'bodies':>6} {'voids':>5} {'cell':>9} {'seconds':>7} {'MiB':>5}  warning")
     for path in files:

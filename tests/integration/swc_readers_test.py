@@ -15,6 +15,8 @@ import subprocess
 import sys
 import tempfile
 
+from readers import loud, readers_python
+
 SKIPPED = 77
 PACKAGES = ["morphio>=3.5", "navis>=1.12"]
 
@@ -74,26 +76,6 @@ MORPHIO_DIFFERENCES = {
 }
 
 
-def loud(text):
-    print(f"\n******** {text} ********\n", file=sys.stderr, flush=True)
-
-
-def readers_python(folder):
-    """The interpreter of the environment with the readers, which is made on first use; None where that fails."""
-    python = folder / "bin" / "python"
-    complete = folder / "complete"
-    if not complete.exists():
-        try:
-            subprocess.run([sys.executable, "-m", "venv", "--clear", folder], check=True, capture_output=True)
-            subprocess.run([python, "-m", "pip", "install", "--quiet", *PACKAGES], check=True, capture_output=True,
-                           timeout=600)
-        except (OSError, subprocess.SubprocessError) as error:
-            loud(f"SKIPPED, NOT PASSED: morphio and navis cannot be installed ({error})")
-            return None
-        complete.touch()
-    return python
-
-
 def read_samples(path):
     """By id: type and parent. Says which pieces belong to neurites; the counts under test are isofield's own."""
     samples = {}
@@ -132,7 +114,7 @@ def main():
     if not files:
         loud(f"SKIPPED, NOT PASSED: {data}/swc is missing (set ISOFIELD_SHARED)")
         sys.exit(SKIPPED)
-    python = readers_python(pathlib.Path(readers))
+    python = readers_python(readers, PACKAGES, "SKIPPED, NOT PASSED")
     if python is None:
         sys.exit(SKIPPED)
     run = subprocess.run([python, "-c", COUNT, *map(str, files)], capture_output=True, text=True)

@@ -6,7 +6,7 @@
 
 namespace isofield {
 
-// What a field of an operator, an opening or a silhouette accepts, as scene.proto and operator.proto state it.
+// The values that a field of an operator, an opening or a silhouette accepts; scene.proto and operator.proto state them.
 struct ParameterRange {
   std::string accepts;    // in words, such as "a number within [1, 64]"
   std::string otherwise;  // the default in words; empty where the field must be stated

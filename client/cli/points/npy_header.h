@@ -25,7 +25,7 @@ struct NpyField {
   NpyNumber number;
 };
 
-// What the header of a NumPy file says.
+// The contents of a NumPy file's header.
 struct NpyHeader {
   // A plain array has one field without a name.
   std::vector<NpyField> fields;

@@ -29,7 +29,7 @@ class PointReader {
 // Opens a file of points; "-" is the standard input. A file that begins with NumPy's magic bytes is an array, whatever
 // its name is. Any other file is text.
 //
-// Which columns hold the vectors:
+// The columns that hold the vectors are found so:
 //  - With a header (text) or fields (NumPy's structured types): those that find_vector() chooses by their names.
 //    INVALID_ARGUMENT: they are not there.
 //  - Without names: the first three, with a note on the others.
@@ -41,7 +41,7 @@ class PointReader {
 // type and shape (n,). Their numbers are integers or floats of any size and byte order, in C or Fortran order.
 absl::StatusOr<std::unique_ptr<PointReader>> open_points(const std::string& path, const VectorColumns& wanted = {});
 
-// What --help says of such files.
+// The text about such files in --help.
 inline constexpr char kPointsHelp[] =
     "Text with a point a line (.csv) or a NumPy array (.npy); - is the standard input. Columns or fields named x, y, "
     "z, in any order; without names the first three. Rows of `isofield ray` that hit nothing are left out";

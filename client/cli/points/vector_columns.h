@@ -8,7 +8,7 @@
 
 namespace isofield {
 
-// Which vectors of a table are wanted, and where they are if the columns have no names.
+// The vectors of a table that a command wants, and where they are if the columns have no names.
 struct VectorColumns {
   VectorRole role = VectorRole::kPosition;
   // True where the origins are read from the same file: without names, these vectors are then columns 4 to 6.
