@@ -6,7 +6,8 @@
 
 namespace isofield {
 
-// The values that a field of an operator, an opening or a silhouette accepts; scene.proto and operator.proto state them.
+// The values that a field of an operator, an opening or a silhouette accepts. scene.proto and operator.proto state
+// them.
 struct ParameterRange {
   std::string accepts;    // in words, such as "a number within [1, 64]"
   std::string otherwise;  // the default in words; empty where the field must be stated
