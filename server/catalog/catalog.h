@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "blobtree/operator_table.h"
+#include "blobtree/scene/operator_table.h"
 #include "isofield/v1/scene.pb.h"
 
 namespace isofield::catalog {

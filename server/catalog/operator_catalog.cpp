@@ -4,7 +4,7 @@
 #include <absl/strings/str_join.h>
 
 #include "base/quoted.h"
-#include "blobtree/node_reader.h"
+#include "blobtree/scene/node_reader.h"
 #include "catalog/built_in_operators.h"
 #include "catalog/name.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "blobtree/operator_table.h"
+#include "blobtree/scene/operator_table.h"
 #include "isofield/v1/operator.pb.h"
 #include "isofield/v1/scene.pb.h"
 

@@ -14,9 +14,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "blobtree/nearest_name.h"
+#include "base/nearest_name.h"
+#include "base/status_macros.h"
 #include "daemon/config_file.h"
-#include "engine/status_macros.h"
 
 namespace isofield::daemon {
 namespace {
@@ -187,7 +187,7 @@ absl::StatusOr<std::vector<std::string>> flags_of_file(const Options& options, c
   for (const ConfigLine& line : lines) {
     const std::string place = absl::StrCat(path, ":", line.line, ": ", line.key);
     if (std::find(names.begin(), names.end(), line.key) == names.end()) {
-      const std::string hint = blobtree::did_you_mean(line.key, names);
+      const std::string hint = base::did_you_mean(line.key, names);
       return absl::InvalidArgumentError(
           absl::StrCat(place, ": no such option", hint, hint.empty() ? "; " : " ", "isofieldd --help lists them all"));
     }
@@ -217,7 +217,7 @@ absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& opt
     // Only the parts after the common prefix are compared; with it most names would be near.
     std::vector<std::string> tails;
     for (const std::string& known : variables) tails.push_back(known.substr(kPrefix.size()));
-    const std::string tail = blobtree::nearest_name(absl::string_view(variable).substr(kPrefix.size()), tails);
+    const std::string tail = base::nearest_name(absl::string_view(variable).substr(kPrefix.size()), tails);
     if (tail.empty()) continue;
     return absl::InvalidArgumentError(absl::StrCat("the environment's ", variable,
                                                    " belongs to no option; did you mean '", kPrefix, tail, "'?"));
@@ -244,7 +244,7 @@ std::string explain(const Options& options, const CLI::ParseError& error) {
   const std::string wanted = extras.front().substr(0, extras.front().find('='));
   std::vector<std::string> names{"--config", "--help", "--version"};
   for (const Options::Settable& settable : options.settable) names.push_back("--" + settable.name);
-  return absl::StrCat(wanted, ": no such option", blobtree::did_you_mean(wanted, names));
+  return absl::StrCat(wanted, ": no such option", base::did_you_mean(wanted, names));
 }
 
 ParsedConfig refuse(absl::string_view message) {

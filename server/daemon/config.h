@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/kernel_cache.h"
+#include "engine/kernels/kernel_cache.h"
 #include "rpc/limits.h"
 
 namespace isofield::daemon {

@@ -18,12 +18,12 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/status_macros.h"
 #include "catalog/catalog.h"
 #include "catalog/operator_catalog.h"
 #include "daemon/region_socket.h"
 #include "daemon/socket.h"
 #include "engine/engine.h"
-#include "engine/status_macros.h"
 #include "rpc/call_log.h"
 #include "rpc/evaluate_calls.h"
 #include "rpc/evaluate_streams.h"
@@ -33,7 +33,7 @@
 #include "rpc/operator_service.h"
 #include "rpc/reflection_service.h"
 #include "rpc/scene_service.h"
-#include "rpc/scene_source.h"
+#include "scenes/scene_source.h"
 #include "rpc/shared_regions.h"
 #include "rpc/surface_service.h"
 #include "rpc/unreadable_requests.h"

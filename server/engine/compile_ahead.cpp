@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "blobtree/extent.h"
+#include "blobtree/tape/extent.h"
 #include "engine/likely_edits.h"
-#include "engine/mesh_request.h"
+#include "engine/mesh/mesh_request.h"
 
 namespace isofield::engine {
 namespace {

@@ -9,10 +9,10 @@
 #include <thread>
 #include <vector>
 
-#include "blobtree/operator_table.h"
-#include "blobtree/scene.h"
+#include "blobtree/scene/operator_table.h"
+#include "blobtree/scene/scene.h"
 #include "engine/engine.h"
-#include "engine/kernel_cache.h"
+#include "engine/kernels/kernel_cache.h"
 
 namespace isofield::engine {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <thread>
 
-#include "blobtree/blend_edit.h"
-#include "blobtree/compiler.h"
-#include "blobtree/scene_reader.h"
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
+#include "blobtree/scene/scene_reader.h"
+#include "blobtree/tape/blend_edit.h"
+#include "blobtree/tape/compiler.h"
 
 namespace isofield::engine {
 

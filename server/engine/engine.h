@@ -8,18 +8,18 @@
 #include <memory>
 #include <mutex>
 
-#include "blobtree/operator_table.h"
-#include "blobtree/scene.h"
-#include "engine/evaluation_queue.h"
-#include "engine/field_evaluator.h"
-#include "engine/kernel_cache.h"
-#include "engine/mesher.h"
-#include "engine/operator_evaluator.h"
-#include "engine/ray_caster.h"
-#include "engine/resident_scene.h"
-#include "engine/surface_projector.h"
-#include "engine/workers.h"
-#include "engine/written_kernels.h"
+#include "base/workers.h"
+#include "blobtree/scene/operator_table.h"
+#include "blobtree/scene/scene.h"
+#include "engine/kernels/kernel_cache.h"
+#include "engine/mesh/mesher.h"
+#include "engine/points/evaluation_queue.h"
+#include "engine/points/field_evaluator.h"
+#include "engine/points/operator_evaluator.h"
+#include "engine/points/written_kernels.h"
+#include "engine/residency/resident_scene.h"
+#include "engine/surface/ray_caster.h"
+#include "engine/surface/surface_projector.h"
 #include "gpu/device.h"
 #include "isofield/v1/scene.pb.h"
 
@@ -75,7 +75,7 @@ class Engine {
 
   std::unique_ptr<gpu::Device> device_;
   blobtree::SceneLimits limits_;
-  Workers workers_;
+  base::Workers workers_;
   KernelCache kernels_;
   VolumeCache volumes_;
   WrittenKernels written_;

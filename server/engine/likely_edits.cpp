@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "blobtree/extent.h"
+#include "blobtree/tape/extent.h"
 
 namespace isofield::engine {
 namespace {

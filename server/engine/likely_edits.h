@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "blobtree/tape.h"
+#include "blobtree/tape/tape.h"
 #include "isofield/v1/scene.pb.h"
 
 namespace isofield::engine {

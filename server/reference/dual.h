@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "blobtree/vec3.h"
+#include "blobtree/geometry/vec3.h"
 
 namespace isofield::reference {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "blobtree/scene.h"
+#include "blobtree/scene/scene.h"
 #include "reference/field_state.h"
 
 namespace isofield::reference {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "blobtree/affine.h"
-#include "blobtree/distance.h"
+#include "blobtree/geometry/affine.h"
+#include "blobtree/primitives/distance.h"
 #include "operators/operator.h"
 #include "reference/dual.h"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "blobtree/vec3.h"
+#include "blobtree/geometry/vec3.h"
 
 namespace isofield::reference {
 

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
 
 namespace isofield::rpc {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "engine/mesh_lattice.h"
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
+#include "engine/mesh/mesh_lattice.h"
 #include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/grid_parts.h"

@@ -9,7 +9,7 @@
 #include "rpc/call_log.h"
 #include "rpc/evaluate_arguments.h"
 #include "rpc/limits.h"
-#include "rpc/scene_source.h"
+#include "scenes/scene_source.h"
 #include "rpc/shared_regions.h"
 
 namespace isofield::rpc {

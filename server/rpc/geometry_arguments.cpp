@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "blobtree/extent.h"
+#include "blobtree/tape/extent.h"
 
 namespace isofield::rpc {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "blobtree/tape.h"
+#include "blobtree/tape/tape.h"
 
 namespace isofield::rpc {
 

@@ -1,6 +1,6 @@
 #include "rpc/info_service.h"
 
-#include "blobtree/tape.h"
+#include "blobtree/tape/tape.h"
 
 namespace isofield::rpc {
 

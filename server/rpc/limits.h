@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "blobtree/scene.h"
-#include "engine/evaluation_queue.h"
+#include "blobtree/scene/scene.h"
+#include "engine/points/evaluation_queue.h"
 #include "rpc/shared_regions.h"
 
 namespace isofield::rpc {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "blobtree/nearest_leaf.h"
-#include "engine/cell_size.h"
-#include "engine/mesh_lattice.h"
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
+#include "blobtree/cull/nearest_leaf.h"
+#include "engine/mesh/cell_size.h"
+#include "engine/mesh/mesh_lattice.h"
 #include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/tensor.h"

@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <optional>
 
-#include "engine/mesh_cells.h"
-#include "engine/mesh_request.h"
-#include "engine/mesh_shells.h"
-#include "engine/mesher.h"
+#include "engine/mesh/mesh_cells.h"
+#include "engine/mesh/mesh_request.h"
+#include "engine/mesh/mesh_shells.h"
+#include "engine/mesh/mesher.h"
 #include "isofield/v1/mesh_service.pb.h"
 #include "rpc/limits.h"
-#include "rpc/scene_source.h"
+#include "scenes/scene_source.h"
 
 namespace isofield::rpc {
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <memory>
 
-#include "engine/mesh_request.h"
+#include "engine/mesh/mesh_request.h"
 #include "isofield/v1/mesh_service.pb.h"
 
 namespace isofield::rpc {

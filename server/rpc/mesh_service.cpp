@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "engine/mesh_measure.h"
-#include "engine/mesh_simplifier.h"
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
+#include "engine/simplify/mesh_measure.h"
+#include "engine/simplify/mesh_simplifier.h"
 #include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/mesh_messages.h"

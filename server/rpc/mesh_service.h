@@ -7,8 +7,8 @@
 #include "isofield/v1/mesh_service.grpc.pb.h"
 #include "rpc/limits.h"
 #include "rpc/mesh_tracking.h"
-#include "rpc/scene_editor.h"
-#include "rpc/scene_source.h"
+#include "scenes/scene_editor.h"
+#include "scenes/scene_source.h"
 
 namespace isofield::rpc {
 

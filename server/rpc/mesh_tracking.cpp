@@ -3,7 +3,7 @@
 #include <absl/strings/str_cat.h>
 
 #include "base/quoted.h"
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
 #include "rpc/answer_limit.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"

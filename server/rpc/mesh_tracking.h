@@ -10,12 +10,12 @@
 #include <string>
 
 #include "engine/engine.h"
-#include "engine/mesh_tracker.h"
+#include "engine/mesh/mesh_tracker.h"
 #include "isofield/v1/mesh_service.grpc.pb.h"
 #include "rpc/limits.h"
 #include "rpc/mesh_messages.h"
-#include "rpc/scene_editor.h"
-#include "rpc/scene_source.h"
+#include "scenes/scene_editor.h"
+#include "scenes/scene_source.h"
 
 namespace isofield::rpc {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/quoted.h"
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
 #include "rpc/tensor.h"
 
 namespace isofield::rpc {

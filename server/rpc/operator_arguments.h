@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/operator_evaluator.h"
+#include "engine/points/operator_evaluator.h"
 #include "isofield/v1/operator.pb.h"
 #include "isofield/v1/operator_service.pb.h"
 

@@ -3,11 +3,11 @@
 #include <optional>
 
 #include "base/quoted.h"
-#include "blobtree/operator_reader.h"
+#include "base/status_macros.h"
+#include "blobtree/scene/operator_reader.h"
 #include "catalog/built_in_operators.h"
-#include "engine/status_macros.h"
 #include "rpc/answer_limit.h"
-#include "rpc/opening_pick.h"
+#include "scenes/opening_pick.h"
 #include "rpc/operator_arguments.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"

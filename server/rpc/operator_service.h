@@ -5,7 +5,7 @@
 #include "engine/engine.h"
 #include "isofield/v1/operator_service.grpc.pb.h"
 #include "rpc/limits.h"
-#include "rpc/scene_source.h"
+#include "scenes/scene_source.h"
 
 namespace isofield::rpc {
 

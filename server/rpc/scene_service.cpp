@@ -1,6 +1,6 @@
 #include "rpc/scene_service.h"
 
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
 #include "rpc/answer_limit.h"
 #include "rpc/status.h"
 

@@ -5,7 +5,7 @@
 #include "catalog/operator_catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
-#include "rpc/scene_editor.h"
+#include "scenes/scene_editor.h"
 
 namespace isofield::rpc {
 

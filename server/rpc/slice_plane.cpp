@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "blobtree/scene.h"
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
+#include "blobtree/scene/scene.h"
 #include "rpc/geometry_arguments.h"
 
 namespace isofield::rpc {

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "blobtree/tape.h"
-#include "engine/slicer.h"
+#include "blobtree/tape/tape.h"
+#include "engine/surface/slicer.h"
 #include "isofield/v1/surface_service.pb.h"
 
 namespace isofield::rpc {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/iso_level.h"
-#include "engine/slicer.h"
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
+#include "engine/surface/iso_level.h"
+#include "engine/surface/slicer.h"
 #include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/slice_plane.h"

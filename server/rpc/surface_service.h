@@ -4,7 +4,7 @@
 #include "engine/engine.h"
 #include "isofield/v1/surface_service.grpc.pb.h"
 #include "rpc/limits.h"
-#include "rpc/scene_source.h"
+#include "scenes/scene_source.h"
 
 namespace isofield::rpc {
 

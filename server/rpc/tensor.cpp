@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "engine/status_macros.h"
+#include "base/status_macros.h"
 #include "rpc/answer_limit.h"
 
 namespace isofield::rpc {

@@ -1,4 +1,4 @@
-// Bricks of a lattice: server/blobtree/lattice.h.
+// Bricks of a lattice: server/blobtree/cull/lattice.h.
 #ifndef BRICKS_GLSL
 #define BRICKS_GLSL
 

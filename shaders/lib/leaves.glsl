@@ -1,5 +1,5 @@
-// Primitives: signed distance with its derivatives, and the soft field. Mirrors server/blobtree/distance.h by name;
-// records as written by server/blobtree/parameter_layout.cpp.
+// Primitives: signed distance with its derivatives, and the soft field. Mirrors server/blobtree/primitives/distance.h by name;
+// records as written by server/blobtree/tape/parameter_layout.cpp.
 #ifndef LEAVES_GLSL
 #define LEAVES_GLSL
 

@@ -1,7 +1,7 @@
 // What every pass of the mesher is told, and the numbering that its passes share.
 //
 // A cell's corners are numbered x + 2 y + 4 z, its edges 4 axis + u + 2 v with (u, v) the offsets along the next two
-// axes in cyclic order. Its surface falls into patches, one vertex each (dual marching cubes): server/engine/surface_cases.h.
+// axes in cyclic order. Its surface falls into patches, one vertex each (dual marching cubes): server/engine/mesh/surface_cases.h.
 #ifndef MESH_CONSTANTS_GLSL
 #define MESH_CONSTANTS_GLSL
 

@@ -40,7 +40,7 @@ const bool MAY_HAVE_CREASES = false;
 const bool MAY_HAVE_CREASES = true;
 #endif
 
-// What is known of a brick, as bits: server/engine/mesh_creases.h.
+// What is known of a brick, as bits: server/engine/mesh/mesh_creases.h.
 const uint KNOWS_CROSSINGS = 1u;
 const uint MAY_CREASE = 2u;
 const uint HAS_CREASES = 4u;

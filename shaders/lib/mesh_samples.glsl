@@ -1,4 +1,4 @@
-// The samples of a brick, in parts of eight corners: server/engine/mesh_samples.h.
+// The samples of a brick, in parts of eight corners: server/engine/mesh/mesh_samples.h.
 #ifndef MESH_SAMPLES_GLSL
 #define MESH_SAMPLES_GLSL
 

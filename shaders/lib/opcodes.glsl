@@ -1,4 +1,4 @@
-// Mirrors server/blobtree/tape.h: Operand and Operator.
+// Mirrors server/blobtree/tape/tape.h: Operand and Operator.
 #ifndef OPCODES_GLSL
 #define OPCODES_GLSL
 

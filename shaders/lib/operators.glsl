@@ -155,7 +155,7 @@ Field formed(Field r, Field first, Field second, uint mode) {
 }
 
 // An operand's direction in the frame of the operator at `record`, with lengths and angles as they are before the
-// transforms above the operator: Affine::gradient_frame() of server/blobtree/affine.h. A record that has no frame before
+// transforms above the operator: Affine::gradient_frame() of server/blobtree/geometry/affine.h. A record that has no frame before
 // it is that of an operator that follows no angle, and the result does not count.
 Field in_frame(Field a, uint record) {
   if (has_frames()) {

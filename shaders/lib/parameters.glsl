@@ -1,4 +1,4 @@
-// The buffers of a resident scene: server/blobtree/parameter_layout.h.
+// The buffers of a resident scene: server/blobtree/tape/parameter_layout.h.
 #ifndef PARAMETERS_GLSL
 #define PARAMETERS_GLSL
 
@@ -10,7 +10,7 @@ layout(std430, binding = 0) readonly buffer Leaves { vec4 leaves[]; };
 layout(std430, binding = 1) readonly buffer Operations { vec4 operations[]; };
 layout(std430, binding = 2) readonly buffer Tables { vec4 tables[]; };
 layout(std430, binding = 3) readonly buffer Tape { uvec4 tape[]; };
-// The first two and the tape once more: where they fit, or in windows that do (server/engine/tape_windows.h).
+// The first two and the tape once more: where they fit, or in windows that do (server/engine/residency/tape_windows.h).
 layout(std140, binding = 16) uniform UniformLeaves { vec4 uniform_leaves[4096]; };
 layout(std140, binding = 17) uniform UniformOperations { vec4 uniform_operations[4096]; };
 layout(std140, binding = 18) uniform UniformTape { uvec4 uniform_tape[4096]; };

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "engine/engine.h"
-#include "engine/mesh_tracker.h"
+#include "engine/mesh/mesh_tracker.h"
 #include "isofield/import.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <string>
 
+#include "engine/residency/volume_cache.h"
 #include "engine/session.h"
-#include "engine/volume_cache.h"
 #include "operators/profile_table.h"
 #include "support/random_scene.h"
 

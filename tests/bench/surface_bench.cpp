@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/cell_size.h"
 #include "engine/engine.h"
+#include "engine/mesh/cell_size.h"
 #include "isofield/import.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"

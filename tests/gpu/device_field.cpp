@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/field_evaluator.h"
+#include "engine/points/field_evaluator.h"
 
 namespace isofield::gpu_test {
 namespace {

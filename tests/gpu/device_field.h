@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "blobtree/vec3.h"
-#include "engine/mesher.h"
+#include "blobtree/geometry/vec3.h"
+#include "engine/mesh/mesher.h"
 #include "gpu/gpu_environment.h"
 #include "reference/evaluator.h"
 

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <iostream>
 
-#include "blobtree/blend_edit.h"
-#include "blobtree/parameter_edit.h"
-#include "engine/evaluation_queue.h"
-#include "engine/field_evaluator.h"
+#include "blobtree/scene/parameter_edit.h"
+#include "blobtree/tape/blend_edit.h"
+#include "engine/points/evaluation_queue.h"
+#include "engine/points/field_evaluator.h"
 #include "gpu/gpu_environment.h"
 #include "reference/evaluator.h"
 #include "support/random_scene.h"

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "blobtree/compiler.h"
-#include "blobtree/scene_reader.h"
-#include "engine/field_evaluator.h"
+#include "blobtree/scene/scene_reader.h"
+#include "blobtree/tape/compiler.h"
+#include "engine/points/field_evaluator.h"
 #include "gpu/gpu_environment.h"
 #include "gpu/operator_cases.h"
 #include "support/paper_scene.h"

@@ -63,8 +63,8 @@ engine::VolumeCache& volumes() {
   return cache;
 }
 
-engine::Workers& workers() {
-  static engine::Workers the_workers(2);
+base::Workers& workers() {
+  static base::Workers the_workers(2);
   return the_workers;
 }
 

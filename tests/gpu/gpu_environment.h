@@ -1,9 +1,9 @@
 // The device of the GPU tests: opened once, under the validation layer. One validation message fails the run.
 #pragma once
 
-#include "engine/kernel_cache.h"
-#include "engine/resident_scene.h"
-#include "engine/workers.h"
+#include "base/workers.h"
+#include "engine/kernels/kernel_cache.h"
+#include "engine/residency/resident_scene.h"
 #include "gpu/device.h"
 #include "isofield/v1/scene.pb.h"
 
@@ -12,7 +12,7 @@ namespace isofield::gpu_test {
 gpu::Device& device();
 engine::KernelCache& kernels();
 engine::VolumeCache& volumes();
-engine::Workers& workers();
+base::Workers& workers();
 
 // How many random scenes of each kind a test takes; two where ISOFIELD_TESTS_FEW_SCENES is set, since every kind of
 // scene has kernels of its own to compile.

@@ -1,5 +1,5 @@
 // Kernels are specialised before the driver sees them, kept while they are used, and compiled ahead of edits.
-#include "engine/kernel_cache.h"
+#include "engine/kernels/kernel_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "engine/compile_ahead.h"
-#include "engine/specialised_kernels.h"
-#include "engine/spirv_store.h"
-#include "engine/tape_windows.h"
+#include "engine/kernels/specialised_kernels.h"
+#include "engine/kernels/spirv_store.h"
+#include "engine/residency/tape_windows.h"
 #include "gpu/commands.h"
 #include "gpu/gpu_environment.h"
 #include "shaders/specialise.h"

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/mesh_simplifier.h"
-#include "engine/mesher.h"
+#include "engine/mesh/mesher.h"
+#include "engine/simplify/mesh_simplifier.h"
 #include "gpu/gpu_environment.h"
 #include "support/mesh_check.h"
 #include "support/scene_text.h"

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "engine/mesher.h"
+#include "engine/mesh/mesher.h"
 #include "gpu/gpu_environment.h"
 #include "support/mesh_check.h"
 #include "support/random_scene.h"

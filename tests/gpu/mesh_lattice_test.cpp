@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "blobtree/affine.h"
-#include "engine/mesher.h"
+#include "blobtree/geometry/affine.h"
+#include "engine/mesh/mesher.h"
 #include "gpu/gpu_environment.h"
 #include "support/mesh_check.h"
 #include "support/random_scene.h"

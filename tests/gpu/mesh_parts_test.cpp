@@ -6,9 +6,9 @@
 #include <map>
 #include <tuple>
 
-#include "engine/mesh_lattice.h"
-#include "engine/mesh_tracker.h"
-#include "engine/mesher.h"
+#include "engine/mesh/mesh_lattice.h"
+#include "engine/mesh/mesh_tracker.h"
+#include "engine/mesh/mesher.h"
 #include "gpu/gpu_environment.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "engine/mesher.h"
+#include "engine/mesh/mesher.h"
 #include "gpu/gpu_environment.h"
 #include "support/scene_text.h"
 

@@ -8,10 +8,10 @@
 #include <iostream>
 #include <vector>
 
-#include "engine/cell_size.h"
-#include "engine/mesh_simplifier.h"
-#include "engine/mesher.h"
-#include "engine/surface_cases.h"
+#include "engine/mesh/cell_size.h"
+#include "engine/mesh/mesher.h"
+#include "engine/mesh/surface_cases.h"
+#include "engine/simplify/mesh_simplifier.h"
 #include "gpu/gpu_environment.h"
 #include "reference/evaluator.h"
 #include "support/mesh_check.h"
@@ -236,7 +236,7 @@ TEST(Mesher, StatesTheSmallestCellThatFits) {
   EXPECT_FALSE(mesh(sphere_scene(), request).ok()) << text;
 }
 
-// engine/cell_size.h: a ball of the radius holds a corner of a cell wherever it lies.
+// engine/mesh/cell_size.h: a ball of the radius holds a corner of a cell wherever it lies.
 TEST(Mesher, KeepsThinChainsWholeAtTheCoarsestCellThatIsSaidToDo) {
   constexpr double kRadius = 0.1;
   int torn = 0;

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "blobtree/distance.h"
-#include "engine/operator_evaluator.h"
+#include "blobtree/primitives/distance.h"
+#include "engine/points/operator_evaluator.h"
 #include "gpu/device_field.h"
 #include "operators/gradient_blend.h"
 #include "support/paper_scene.h"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/operator_evaluator.h"
+#include "engine/points/operator_evaluator.h"
 #include "gpu/gpu_environment.h"
 
 namespace isofield::gpu_test {

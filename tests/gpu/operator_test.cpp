@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "blobtree/parameter_layout.h"
-#include "engine/operator_evaluator.h"
+#include "blobtree/tape/parameter_layout.h"
+#include "engine/points/operator_evaluator.h"
 #include "gpu/gpu_environment.h"
 #include "operators/gradient_blend.h"
 #include "support/random_scene.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/mesh_measure.h"
-#include "engine/slicer.h"
+#include "engine/simplify/mesh_measure.h"
+#include "engine/surface/slicer.h"
 #include "gpu/gpu_environment.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"

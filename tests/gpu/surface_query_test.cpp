@@ -5,8 +5,8 @@
 #include <cstring>
 #include <iostream>
 
-#include "engine/ray_caster.h"
-#include "engine/surface_projector.h"
+#include "engine/surface/ray_caster.h"
+#include "engine/surface/surface_projector.h"
 #include "gpu/gpu_environment.h"
 #include "reference/evaluator.h"
 #include "support/random_scene.h"

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <thread>
 
+#include "engine/residency/volume_cache.h"
 #include "engine/session.h"
-#include "engine/volume_cache.h"
 #include "gpu/gpu_environment.h"
 #include "operators/gradient_blend.h"
 #include "support/random_scene.h"

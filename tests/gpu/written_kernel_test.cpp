@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "blobtree/blend_edit.h"
-#include "blobtree/parameter_edit.h"
-#include "engine/field_evaluator.h"
-#include "engine/tape_writer.h"
-#include "engine/written_kernels.h"
+#include "blobtree/scene/parameter_edit.h"
+#include "blobtree/tape/blend_edit.h"
+#include "engine/points/field_evaluator.h"
+#include "engine/points/tape_writer.h"
+#include "engine/points/written_kernels.h"
 #include "gpu/gpu_environment.h"
 #include "gpu/operator_cases.h"
 #include "support/random_scene.h"

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "blobtree/vec3.h"
+#include "blobtree/geometry/vec3.h"
 #include "isofield/v1/scene.pb.h"
 #include "reference/evaluator.h"
 

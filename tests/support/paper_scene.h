@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "blobtree/distance.h"
-#include "blobtree/vec3.h"
+#include "blobtree/geometry/vec3.h"
+#include "blobtree/primitives/distance.h"
 
 namespace isofield::test_support {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "blobtree/vec3.h"
+#include "blobtree/geometry/vec3.h"
 #include "isofield/v1/scene.pb.h"
 
 namespace isofield::test_support {

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "blobtree/compiler.h"
-#include "blobtree/scene_reader.h"
+#include "blobtree/scene/scene_reader.h"
+#include "blobtree/tape/compiler.h"
 
 namespace isofield::test_support {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <string>
 
-#include "blobtree/scene.h"
-#include "blobtree/tape.h"
+#include "blobtree/scene/scene.h"
+#include "blobtree/tape/tape.h"
 #include "isofield/v1/scene.pb.h"
 
 namespace isofield::test_support {

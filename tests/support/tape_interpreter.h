@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "blobtree/tape.h"
+#include "blobtree/tape/tape.h"
 #include "reference/field_state.h"
 
 namespace isofield::test_support {

@@ -1,4 +1,4 @@
-#include "blobtree/affine.h"
+#include "blobtree/geometry/affine.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "blobtree/compiler.h"
+#include "blobtree/tape/compiler.h"
 #include "reference/evaluator.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"

@@ -1,8 +1,8 @@
-#include "blobtree/brick_set.h"
+#include "blobtree/geometry/brick_set.h"
 
 #include <gtest/gtest.h>
 
-#include "blobtree/lattice.h"
+#include "blobtree/cull/lattice.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 

@@ -1,4 +1,4 @@
-#include "engine/cell_size.h"
+#include "engine/mesh/cell_size.h"
 
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/mesh_lattice.h"
+#include "engine/mesh/mesh_lattice.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 

@@ -1,4 +1,4 @@
-#include "blobtree/compiler.h"
+#include "blobtree/tape/compiler.h"
 
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "blobtree/scene_reader.h"
+#include "blobtree/scene/scene_reader.h"
 #include "reference/evaluator.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "blobtree/compiler.h"
-#include "blobtree/pruner.h"
-#include "blobtree/scene_reader.h"
+#include "blobtree/cull/pruner.h"
+#include "blobtree/scene/scene_reader.h"
+#include "blobtree/tape/compiler.h"
 #include "reference/evaluator.h"
 #include "support/scene_text.h"
 #include "support/tape_interpreter.h"

@@ -1,5 +1,5 @@
 // What joins, what goes first, and what is refused; on no device, and without time.
-#include "engine/evaluation_queue.h"
+#include "engine/points/evaluation_queue.h"
 
 #include <gtest/gtest.h>
 

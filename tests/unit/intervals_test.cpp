@@ -1,10 +1,10 @@
-#include "blobtree/intervals.h"
+#include "blobtree/cull/intervals.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "blobtree/operation.h"
+#include "blobtree/tape/operation.h"
 #include "operators/gradient_blend.h"
 #include "operators/signed_blends.h"
 #include "support/random_scene.h"

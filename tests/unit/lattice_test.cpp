@@ -1,4 +1,4 @@
-#include "blobtree/lattice.h"
+#include "blobtree/cull/lattice.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <span>
 #include <tuple>
 
-#include "engine/workers.h"
+#include "base/workers.h"
 #include "reference/evaluator.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
@@ -183,7 +183,7 @@ TEST(Cull, LimitsAndCancellationAreObeyed) {
 
 // On threads the list is the same, brick by brick and instruction by instruction.
 TEST(Cull, ThreadsMakeTheSameList) {
-  engine::Workers workers(1);
+  base::Workers workers(1);
   const Lattice fine{{-2, -2, -2}, {0.02, 0.022, 0.024}, {201, 183, 170}};
   std::size_t shared = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

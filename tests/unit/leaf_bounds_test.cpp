@@ -1,4 +1,4 @@
-#include "blobtree/leaf_bounds.h"
+#include "blobtree/primitives/leaf_bounds.h"
 
 #include <gtest/gtest.h>
 

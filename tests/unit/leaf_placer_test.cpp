@@ -1,12 +1,12 @@
-#include "blobtree/leaf_placer.h"
+#include "blobtree/primitives/leaf_placer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "blobtree/compiler.h"
-#include "blobtree/scene_reader.h"
+#include "blobtree/scene/scene_reader.h"
+#include "blobtree/tape/compiler.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 

@@ -1,4 +1,4 @@
-#include "engine/mesh_samples.h"
+#include "engine/mesh/mesh_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "engine/mesh_lattice.h"
+#include "engine/mesh/mesh_lattice.h"
 #include "support/random_scene.h"
 
 namespace isofield::engine {

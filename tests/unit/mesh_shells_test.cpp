@@ -1,4 +1,4 @@
-#include "engine/mesh_shells.h"
+#include "engine/mesh/mesh_shells.h"
 
 #include <gtest/gtest.h>
 

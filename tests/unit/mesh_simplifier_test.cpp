@@ -1,4 +1,4 @@
-#include "engine/mesh_simplifier.h"
+#include "engine/simplify/mesh_simplifier.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-#include "blobtree/vec3.h"
+#include "blobtree/geometry/vec3.h"
 #include "support/cube_grid.h"
 #include "support/mesh_check.h"
 

@@ -4,7 +4,7 @@
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
-#include "blobtree/operator_reader.h"
+#include "blobtree/scene/operator_reader.h"
 #include "catalog/built_in_operators.h"
 
 namespace isofield::catalog {

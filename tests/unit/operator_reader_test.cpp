@@ -1,5 +1,5 @@
 // What operators of messages are refused for, and what becomes of those that are accepted.
-#include "blobtree/operator_reader.h"
+#include "blobtree/scene/operator_reader.h"
 
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "blobtree/scene_reader.h"
+#include "blobtree/scene/scene_reader.h"
 #include "support/scene_text.h"
 
 namespace isofield::blobtree {

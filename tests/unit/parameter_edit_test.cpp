@@ -1,5 +1,5 @@
 // Edits find fields by their names in the .proto file and in JSON; errors list the fields there are.
-#include "blobtree/parameter_edit.h"
+#include "blobtree/scene/parameter_edit.h"
 
 #include <gtest/gtest.h>
 

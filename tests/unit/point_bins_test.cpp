@@ -1,4 +1,4 @@
-#include "blobtree/point_bins.h"
+#include "blobtree/cull/point_bins.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "blobtree/point_grid.h"
+#include "blobtree/cull/point_grid.h"
 #include "reference/evaluator.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"

@@ -1,4 +1,4 @@
-#include "blobtree/point_grid.h"
+#include "blobtree/cull/point_grid.h"
 
 #include <gtest/gtest.h>
 

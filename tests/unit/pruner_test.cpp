@@ -1,4 +1,4 @@
-#include "blobtree/pruner.h"
+#include "blobtree/cull/pruner.h"
 
 #include <gtest/gtest.h>
 

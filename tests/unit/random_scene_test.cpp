@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "blobtree/compiler.h"
-#include "blobtree/scene_reader.h"
+#include "blobtree/scene/scene_reader.h"
+#include "blobtree/tape/compiler.h"
 #include "reference/evaluator.h"
 
 namespace isofield::test_support {

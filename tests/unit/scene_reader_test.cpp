@@ -1,4 +1,4 @@
-#include "blobtree/scene_reader.h"
+#include "blobtree/scene/scene_reader.h"
 
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>

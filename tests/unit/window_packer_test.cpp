@@ -1,10 +1,10 @@
-#include "blobtree/window_packer.h"
+#include "blobtree/tape/window_packer.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 
-#include "blobtree/leaf_placer.h"
+#include "blobtree/primitives/leaf_placer.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 

@@ -1,4 +1,4 @@
-#include "engine/workers.h"
+#include "base/workers.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 TEST(Workers, EachIsDoneOnce) {
   for (const unsigned threads : {0u, 1u, 3u}) {
-    Workers workers(threads);
+    base::Workers workers(threads);
     for (const std::size_t count : {0u, 1u, 2u, 1000u}) {
       std::vector<std::atomic<int>> done(count);
       workers.for_each(count, [&](std::size_t i) { ++done[i]; });
@@ -20,13 +20,13 @@ TEST(Workers, EachIsDoneOnce) {
 
 // Each waits for the other: on one thread this would not end.
 TEST(Workers, AreSpreadOverThreads) {
-  Workers workers(1);
+  base::Workers workers(1);
   std::latch both(2);
   workers.for_each(2, [&](std::size_t) { both.arrive_and_wait(); });
 }
 
 TEST(Workers, ManyMayAskAtOnceAndFromWithin) {
-  Workers workers(2);
+  base::Workers workers(2);
   std::atomic<int> done = 0;
   std::vector<std::thread> callers;
   for (int c = 0; c < 8; ++c) {

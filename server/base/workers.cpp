@@ -1,0 +1,53 @@
+#include "base/workers.h"
+
+namespace isofield::base {
+
+Workers::Workers(unsigned threads) {
+  threads_.reserve(threads);
+  for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { help(); });
+}
+
+Workers::~Workers() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+  }
+  came_.notify_all();
+  for (std::thread& t : threads_) t.join();
+}
+
+void Workers::take_part(Task& task) {
+  for (std::size_t i = task.next++; i < task.count; i = task.next++) (*task.work)(i);
+}
+
+void Workers::for_each(std::size_t count, const std::function<void(std::size_t)>& work) {
+  Task task{&work, count};
+  if (threads_.empty() || count < 2) return take_part(task);
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(&task);
+  }
+  came_.notify_all();
+  take_part(task);
+  std::unique_lock lock(mutex_);
+  tasks_.remove(&task);
+  left_.wait(lock, [&] { return task.helpers == 0; });
+}
+
+void Workers::help() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    came_.wait(lock, [&] { return is_over_ || !tasks_.empty(); });
+    if (is_over_) return;
+    Task& task = *tasks_.front();
+    ++task.helpers;
+    lock.unlock();
+    take_part(task);
+    lock.lock();
+    tasks_.remove(&task);
+    // The one who asked may be gone with the task as soon as the lock is.
+    if (--task.helpers == 0) left_.notify_all();
+  }
+}
+
+}  // namespace isofield::base

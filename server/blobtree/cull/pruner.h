@@ -1,0 +1,50 @@
+// Prunes a tape to what is alive in a box: leaves whose field is 0 there drop out, and so do operators that are left
+// with one operand. The pruned tape gives the same bits as the whole one at every point of the box, because every
+// operator returns its other operand unchanged where one is 0.
+#pragma once
+
+#include <vector>
+
+#include "blobtree/cull/intervals.h"
+#include "blobtree/primitives/leaf_bounds.h"
+#include "blobtree/tape/tape.h"
+
+namespace isofield::blobtree {
+
+// What is left of a tape in a box.
+struct Pruned {
+  Interval range;
+  // A positive field that is 0 throughout: it has no code.
+  bool is_zero = false;
+};
+
+class Pruner {
+ public:
+  // `tape` must outlive the pruner. One thread at a time.
+  explicit Pruner(const Tape& tape) : tape_(tape) {}
+
+  // Appends to `out` the part of source[begin, begin + count) that is alive in the box and returns bounds of the field
+  // there. `out` may be `source`. The bounds hold for the device's float32 results too.
+  Pruned prune(const std::vector<Instruction>& source, std::size_t begin, std::size_t count, const Box& box,
+               std::vector<Instruction>& out);
+
+ private:
+  // An operand whose code starts at `begin` in the output. A positive one that is 0 throughout has no code.
+  struct Value {
+    Interval range;
+    std::size_t begin;
+    bool is_zero = false;
+  };
+  Value leaf_value(const Leaf& leaf, const Box& box, const CentredBox& centred) const;
+  // Combines the value on top of the stack with the right operand of i: a leaf fused into i, or (`fused` false) a value
+  // whose code has been appended already.
+  void join(const Instruction& i, const Value& right, bool fused, std::vector<Instruction>& out);
+  // Applies a conversion, or an operator of as many values as its mask says, to what is on top of the stack.
+  void convert(const Instruction& i, std::vector<Instruction>& out);
+  void join_all(const Instruction& i, std::vector<Instruction>& out);
+
+  const Tape& tape_;
+  std::vector<Value> stack_;
+};
+
+}  // namespace isofield::blobtree

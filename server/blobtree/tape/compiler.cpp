@@ -1,0 +1,312 @@
+#include "blobtree/tape/compiler.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+
+#include "blobtree/primitives/leaf_placer.h"
+#include "blobtree/tape/bounds.h"
+#include "blobtree/tape/operation.h"
+
+namespace isofield::blobtree {
+namespace {
+
+using operators::Form;
+using operators::Kind;
+using operators::Law;
+
+bool is_n_ary(const Node& node) {
+  return node.op && node.op->is_n_ary();
+}
+bool is_conversion(const Node& node) {
+  return node.kind == NodeKind::kSoften || node.kind == NodeKind::kHarden;
+}
+// A node that is its only child: transforms are folded into the leaves.
+bool is_transparent(const Node& node) {
+  return node.children.size() == 1 && !is_conversion(node);
+}
+
+// Transforms this close to a similarity change no angle by more than float32 does, for example a rotation whose matrix
+// was written with seven digits.
+constexpr double kSimilar = 5e-7;
+
+// The weights of nested blends may multiply fields and their gradients by this much in all.
+constexpr double kMostGain = 1e9;
+
+// The most that an operator multiplies a field by, 1 over its weight.
+double gain_of(const operators::Operator& op) {
+  double gain = 1;
+  if (op.kind != Kind::kBt2 && op.kind != Kind::kBtk) return gain;
+  for (const operators::Term& t : op.terms) gain = std::max(gain, 1 / t.weight);
+  return gain;
+}
+
+class Compiler {
+ public:
+  explicit Compiler(const Scene& scene) : scene_(scene) {}
+
+  absl::StatusOr<Tape> run() {
+    measure_depths();
+    if (depth_[scene_.root] > kMaxStackDepth) {
+      return absl::InvalidArgumentError(absl::StrCat(
+          scene_.nodes[scene_.root].path, ": ", depth_[scene_.root], " operands would wait at once, expected at most ",
+          kMaxStackDepth, "; write the deep children of operators with three and more children first"));
+    }
+    tape_.stack_depth = depth_[scene_.root];
+    has_frames_ = changes_angles();
+    if (absl::Status s = emit_all(); !s.ok()) return s;
+    return std::move(tape_);
+  }
+
+ private:
+  struct Join {
+    Operator op = Operator::kPush;
+    std::uint32_t operation = 0;  // in Tape::operations
+    Mode mode;
+  };
+  // One node on the way of being emitted.
+  struct Frame {
+    std::uint32_t node;
+    std::uint32_t to_world;  // in maps_
+    std::uint32_t next_child = 0;
+    bool second_first = false;    // the second child is deeper: it goes first
+    std::uint32_t operation = 0;  // operators of two or more children
+    // How the node's value joins what is on the stack when it is complete.
+    Join join;
+    double length = 0;  // largest range below, in the unit of the node's own frame
+    double gain = 1;    // of the weights below
+    Bounds bounds;
+    Bounds waiting;  // second_first: those of the second operand, until the first is there
+  };
+
+  // Values that wait while a node is evaluated. A leaf-like operand is fused and never waits.
+  void measure_depths() {
+    depth_.assign(scene_.nodes.size(), 0);
+    leaf_like_.assign(scene_.nodes.size(), 0);
+    for (const std::uint32_t index : scene_.order) {
+      const Node& node = scene_.nodes[index];
+      leaf_like_[index] = node.kind == NodeKind::kPrimitive || (is_transparent(node) && leaf_like_[node.children[0]]);
+      std::size_t need = 0;
+      for (std::size_t i = 0; i < node.children.size(); ++i) {
+        const std::uint32_t child = ordered_child(node, i);
+        const std::size_t waiting = is_n_ary(node) ? i : i > 0 && !leaf_like_[child] ? 1 : 0;
+        need = std::max(need, depth_[child] + waiting);
+      }
+      depth_[index] = static_cast<std::uint32_t>(need);
+    }
+  }
+
+  // Whether a transform above some operator that follows an angle changes angles.
+  bool changes_angles() const {
+    std::vector<char> follows(scene_.nodes.size(), 0);
+    for (const std::uint32_t index : scene_.order) {
+      const Node& node = scene_.nodes[index];
+      follows[index] = node.op && node.op->follows_angle() && node.children.size() > 1;
+      for (const std::uint32_t child : node.children) follows[index] |= follows[child];
+      if (node.kind == NodeKind::kTransform && follows[index] && !node.frame.is_similarity(kSimilar)) return true;
+    }
+    return false;
+  }
+
+  bool second_goes_first(const Node& node) const {
+    if (node.children.size() < 2 || is_n_ary(node)) return false;
+    const std::uint32_t first = node.children[0], second = node.children[1];
+    return leaf_like_[first] ? !leaf_like_[second] : !leaf_like_[second] && depth_[second] > depth_[first];
+  }
+  std::uint32_t ordered_child(const Node& node, std::size_t i) const {
+    return i < 2 && second_goes_first(node) ? node.children[1 - i] : node.children[i];
+  }
+
+  void open(std::uint32_t node, std::uint32_t to_world, const Join& join) {
+    Frame frame{.node = node, .to_world = to_world};
+    frame.join = join;
+    const Node& n = scene_.nodes[node];
+    frame.second_first = second_goes_first(n);
+    if (n.children.size() >= 2 || is_conversion(n)) frame.operation = add_operation(n, node, maps_[to_world]);
+    if (n.kind == NodeKind::kTransform) {
+      maps_.push_back(maps_[to_world].after(n.frame));
+      frame.to_world = static_cast<std::uint32_t>(maps_.size() - 1);
+    }
+    stack_.push_back(frame);
+  }
+
+  std::uint32_t add_operation(const Node& node, std::uint32_t index, const Affine& to_world) {
+    Operation o;
+    if (node.kind == NodeKind::kSoften) {
+      o.op = Operator::kSoften;
+      o.range = node.range;
+    } else if (node.kind == NodeKind::kHarden) {
+      o.op = Operator::kLinear;
+      o.factor = -1;
+      o.offset = 0.5;
+    } else {
+      o = operation_of(node.op, node.law, static_cast<std::uint32_t>(node.children.size()), bounds_);
+      tape_.arity = std::max(tape_.arity, o.operands);
+      if (has_frames_ && node.op->follows_angle()) o.frame = to_world.gradient_frame();
+    }
+    o.node = index;
+    return blobtree::add_operation(tape_, std::move(o));
+  }
+
+  // How the operand that is emitted as the i-th joins those before.
+  Join join_of(const Node& node, const Frame& frame, std::uint32_t i) const {
+    Join join{tape_.operations[frame.operation].op, frame.operation, {}};
+    const bool exchanged = i == 1 && frame.second_first;
+    if (join.op == Operator::kSubtract) {
+      if (exchanged) join.op = Operator::kSubtractFrom;
+      return join;
+    }
+    join.mode.form = node.op->applied_form();
+    join.mode.is_signed = node.law == Law::kSigned;
+    join.mode.is_exchanged = exchanged && (is_ordered(*node.op) || join.mode.form == Form::kDifference);
+    return join;
+  }
+
+  absl::Status emit_all() {
+    maps_.emplace_back();
+    open(scene_.root, 0, {});
+    while (!stack_.empty()) {
+      Frame& top = stack_.back();
+      const Node& node = scene_.nodes[top.node];
+      if (node.kind == NodeKind::kPrimitive) {
+        if (absl::Status s = emit_leaf(node, top); !s.ok()) return s;
+        close();
+        continue;
+      }
+      if (top.next_child == node.children.size()) {
+        if (absl::Status s = check_gain(node, top); !s.ok()) return s;
+        close();
+        continue;
+      }
+      const std::uint32_t i = top.next_child++;
+      const std::uint32_t child = ordered_child(node, i);
+      if (is_transparent(node)) {
+        open(child, top.to_world, top.join);
+      } else if (i == 0 || is_n_ary(node)) {
+        open(child, top.to_world, {});
+      } else {
+        open(child, top.to_world, join_of(node, top, i));
+      }
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status emit_leaf(const Node& node, Frame& frame) {
+    absl::StatusOr<Leaf> leaf = place_leaf(node, maps_[frame.to_world]);
+    if (!leaf.ok()) return leaf.status();
+    leaf->record = tape_.leaf_records;
+    leaf->node = frame.node;
+    tape_.leaf_records += leaf_record_size(leaf->operand);
+    emit(leaf->operand, frame.join, leaf->record, static_cast<std::uint32_t>(tape_.leaves.size()));
+    if (leaf->law == Law::kSigned) tape_.operand_set |= kSignedLeaves;
+    frame.length = node.range;
+    frame.bounds = {leaf->support, leaf->growth};
+    tape_.leaves.push_back(*std::move(leaf));
+    return absl::OkStatus();
+  }
+
+  void emit(Operand operand, const Join& join, std::uint32_t leaf = 0, std::uint32_t index = 0) {
+    const std::uint32_t record = join.op == Operator::kPush ? 0 : tape_.operations[join.operation].record;
+    const Instruction i = instruction(operand, join.op, leaf, record, index, join.mode);
+    tape_.code.push_back(i);
+    tape_.operand_set |= 1u << static_cast<std::uint32_t>(operand);
+    tape_.operator_set |= 1u << static_cast<std::uint32_t>(join.op);
+    if (join.op != Operator::kPush) add_sets(tape_, tape_.operations[join.operation], join.mode);
+  }
+
+  // Blends divide fields by weights: nested often enough, beyond what float32 holds.
+  static absl::Status check_gain(const Node& node, Frame& frame) {
+    if (node.kind == NodeKind::kSoften) frame.gain = 1;
+    if (node.op && node.children.size() >= 2) frame.gain *= gain_of(*node.op);
+    if (frame.gain <= kMostGain) return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        absl::StrCat(node.path, ": its weights and those of blends below divide a field by ", 1 / frame.gain,
+                     " in all: expected weights whose product along a way down is at least ", 1 / kMostGain));
+  }
+
+  // The node on top is complete: join its value, and tell its parent what it needs to know.
+  void close() {
+    Frame done = stack_.back();
+    const Node& node = scene_.nodes[done.node];
+    stack_.pop_back();
+    if (node.kind == NodeKind::kTransform) {
+      maps_.pop_back();
+      done.length *= node.frame.stretch().least;
+    }
+    if (node.children.size() >= 2 || is_conversion(node)) {
+      const Join own{tape_.operations[done.operation].op, done.operation, unary_mode(node)};
+      if (node.kind == NodeKind::kSoften) done.length = node.range;
+      if (is_conversion(node)) {
+        done.bounds = node.kind == NodeKind::kSoften ? softened(done.bounds, node.range) : hardened(done.bounds);
+        emit(Operand::kZero, own);
+      } else if (is_n_ary(node)) {
+        emit(Operand::kZero, own, (1u << node.children.size()) - 1);
+      }
+      Operation& operation = tape_.operations[done.operation];
+      // Without frames all maps above are similarities: they scale alike in all directions.
+      if (operation.what && operation.what->follows_angle()) {
+        operation.length = done.length * (operation.frame ? 1 : maps_[done.to_world].stretch().most);
+      }
+      // A transparent node's child, or a leaf, has joined already.
+      if (done.join.op != Operator::kPush) emit(Operand::kPop, done.join);
+    }
+    if (stack_.empty()) {
+      tape_.law = node.law;
+      tape_.support = done.bounds.box;
+      return;
+    }
+    Frame& parent = stack_.back();
+    const Node& above = scene_.nodes[parent.node];
+    parent.length = std::max(parent.length, done.length);
+    parent.gain = std::max(parent.gain, done.gain);
+    if (!above.op || above.children.size() == 1) {
+      parent.bounds = done.bounds;
+      return;
+    }
+    // The order of emission may exchange the first two operands.
+    std::uint32_t operand = parent.next_child - 1;
+    if (parent.second_first && operand < 2) {
+      if (operand == 0) {
+        parent.waiting = done.bounds;
+        return;
+      }
+      join_bounds(parent.bounds, *above.op, above.law, 0, done.bounds);
+      join_bounds(parent.bounds, *above.op, above.law, 1, parent.waiting);
+      return;
+    }
+    join_bounds(parent.bounds, *above.op, above.law, operand, done.bounds);
+  }
+
+  static Mode unary_mode(const Node& node) {
+    if (!is_n_ary(node)) return {};
+    return {node.op->form, node.law == Law::kSigned, false};
+  }
+
+  const Scene& scene_;
+  Tape tape_;
+  std::vector<std::uint32_t> depth_;
+  std::vector<char> leaf_like_;
+  std::vector<Frame> stack_;
+  std::vector<Affine> maps_;
+  bool has_frames_ = false;
+  SilhouetteBounds bounds_;
+};
+
+}  // namespace
+
+std::pair<double, double> Tape::linear(const Instruction& i) const {
+  const Operation& o = operation(i);
+  if (o.op == Operator::kLinear) return {o.factor, o.offset};
+  return {1 / o.what->term(i.operation - o.record - 1).weight, 0};
+}
+
+void Box::add(const Box& other) {
+  min = {std::min(min.x, other.min.x), std::min(min.y, other.min.y), std::min(min.z, other.min.z)};
+  max = {std::max(max.x, other.max.x), std::max(max.y, other.max.y), std::max(max.z, other.max.z)};
+}
+
+absl::StatusOr<Tape> compile(const Scene& scene) {
+  return Compiler(scene).run();
+}
+
+}  // namespace isofield::blobtree

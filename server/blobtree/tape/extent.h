@@ -1,0 +1,21 @@
+// How far a scene's field reaches.
+#pragma once
+
+#include <algorithm>
+
+#include "blobtree/scene/scene.h"
+#include "blobtree/tape/tape.h"
+
+namespace isofield::blobtree {
+
+// The longest edge of a box that is not empty.
+inline double longest_edge(const Box& box) {
+  return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+}
+
+// True where the scene's operators bound its field by themselves. A scene without any field is bounded.
+inline bool is_bounded(const Tape& tape) {
+  return tape.support.empty() || tape.support.max.x < kMaxCoordinate;
+}
+
+}  // namespace isofield::blobtree

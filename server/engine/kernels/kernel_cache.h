@@ -1,0 +1,105 @@
+// Pipelines by entry point and specialisation, compiled on first use; the least recently used are freed.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "blobtree/tape/tape.h"
+#include "engine/kernels/specialised_kernels.h"
+#include "gpu/device.h"
+#include "gpu/pipeline.h"
+#include "shaders/embedded.h"
+
+namespace isofield::engine {
+
+// The values to which a kernel that runs tapes is specialised (shaders/lib/opcodes.glsl).
+struct KernelKind {
+  std::uint32_t operand_set = 0, operator_set = 0, stack_depth = 0;
+  std::uint32_t tape_length = 0;  // 0: any
+  std::uint32_t arity = 0;        // most operands of an n-ary operator
+  std::uint32_t volume_set = 0;   // slots of volumes, by bits (shaders/lib/volume.glsl)
+  std::uint32_t uniform_set = 0;  // parameters that are read from uniform buffers (shaders/lib/parameters.glsl)
+
+  // A kind that runs this tape and every tape pruned from it.
+  static KernelKind of(const blobtree::Tape& tape);
+  // A kind that runs those of them that are a single leaf.
+  static KernelKind single_leaf(const blobtree::Tape& tape);
+
+  // The values of specialisation constants 0, 1, 2, ...
+  std::array<std::uint32_t, 7> constants() const {
+    return {operand_set, operator_set, stack_depth, tape_length, arity, volume_set, uniform_set};
+  }
+};
+
+struct KernelOptions {
+  // The most kernels that are kept. A kernel takes some 0.25 MB on lavapipe, and the mesh of a scene needs about a
+  // dozen.
+  std::size_t most = 512;
+  // The specialised kernels, which other devices may share. Null: the cache makes its own.
+  std::shared_ptr<SpecialisedKernels> specialised;
+};
+
+// Thread-safe. A kernel that two threads want at once is compiled once, and the second thread waits for it. A kernel
+// that the cache frees lives on while somebody uses it.
+class KernelCache {
+ public:
+  explicit KernelCache(gpu::Device& device, KernelOptions options = {})
+      : device_(device),
+        most_(options.most),
+        specialised_(options.specialised ? std::move(options.specialised) : std::make_shared<SpecialisedKernels>()) {}
+
+  // Calls `waits` before it waits for the driver to compile.
+  absl::StatusOr<gpu::SharedPipeline> get(const shaders::Spirv& shader, const KernelKind& kind = {},
+                                          const std::function<void()>& waits = {});
+  // The variant of the shader that suits the device.
+  const shaders::Spirv& of(const shaders::InRounds& shader) const;
+
+  struct Counts {
+    std::uint64_t held = 0, compiled = 0;
+  };
+  Counts counts() const;
+
+ private:
+  using Compiled = absl::StatusOr<gpu::SharedPipeline>;
+  using Key = std::array<std::uintptr_t, 8>;
+  struct Entry {
+    std::shared_future<Compiled> kernel;
+    std::uint64_t last_used = 0;  // in calls of get()
+    bool is_ready = false;
+  };
+
+  Compiled compile(const shaders::Spirv& shader, const KernelKind& kind);
+  void forget_least_used();
+
+  gpu::Device& device_;
+  const std::size_t most_;
+  const std::shared_ptr<SpecialisedKernels> specialised_;
+  mutable std::mutex mutex_;
+  std::map<Key, Entry> kernels_;
+  std::uint64_t uses_ = 0, compiled_ = 0;
+};
+
+// The kernels of one request. `waits` is called whenever the request has to wait for one to be compiled.
+class Kernels {
+ public:
+  Kernels(KernelCache& cache, std::function<void()> waits) : cache_(cache), waits_(std::move(waits)) {}
+
+  absl::StatusOr<gpu::SharedPipeline> get(const shaders::Spirv& shader, const KernelKind& kind = {}) const {
+    return cache_.get(shader, kind, waits_);
+  }
+  const shaders::Spirv& of(const shaders::InRounds& shader) const { return cache_.of(shader); }
+
+ private:
+  KernelCache& cache_;
+  const std::function<void()> waits_;
+};
+
+}  // namespace isofield::engine

@@ -1,0 +1,99 @@
+#include "engine/mesh/mesh_triangles.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "base/status_macros.h"
+#include "engine/session.h"
+
+namespace isofield::engine {
+namespace {
+
+using gpu::Buffer;
+
+// Quads of one submission and one output buffer.
+constexpr std::uint32_t kQuadSlab = 1u << 21;
+// CUT_FAN of shaders/lib/mesh_quads.glsl.
+constexpr std::uint32_t kCutFan = 2;
+
+}  // namespace
+
+gpu::Commands::Bindings QuadCutter::with_quads(const gpu::Commands::Bindings& own) const {
+  gpu::Commands::Bindings all = quads_;
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+absl::Status QuadCutter::cut(const Buffer& positions, const Buffer& kinds, bool is_smooth) {
+  const std::uint32_t total = quad_count();
+  cuts_.resize(total);
+  ISOFIELD_ASSIGN_OR_RETURN(cuts_buffer_, Buffer::create(device_, std::size_t{4} * total, Buffer::Use::kDevice));
+  ISOFIELD_ASSIGN_OR_RETURN(corners_, Buffer::create(device_, std::size_t{16} * total, Buffer::Use::kDevice));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel,
+                            kernels_.get(is_smooth ? shaders::kMeshQuadsSmooth : shaders::kMeshQuads));
+  for (std::uint32_t first = 0; first < total; first += kQuadSlab) {
+    ISOFIELD_RETURN_IF_ERROR(check_(0.95));
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    MeshConstants constants = constants_;
+    constants.first = first;
+    constants.count = std::min(kQuadSlab, total - first);
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
+        kernel, with_quads({{11, &positions}, {12, &cuts_buffer_}, {13, &kinds}, {14, &corners_}}), constants,
+        mesh_groups(constants.count)));
+    if (first + constants.count == total) {
+      ISOFIELD_RETURN_IF_ERROR(session.download(cuts_buffer_, std::span(cuts_)));
+    }
+    ISOFIELD_RETURN_IF_ERROR(session.run());
+  }
+  number_fans();
+  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+  ISOFIELD_ASSIGN_OR_RETURN(fan_starts_buffer_, session.upload(std::span(fan_starts_)));
+  ISOFIELD_ASSIGN_OR_RETURN(cuts_buffer_, session.upload(std::span(cuts_)));
+  return session.run();
+}
+
+void QuadCutter::number_fans() {
+  fan_starts_.reserve(starts_.size());
+  std::uint32_t fans = 0, quad = 0;
+  for (const MeshStart& start : starts_) {
+    for (; quad < start[1]; ++quad) {
+      const std::uint32_t cut = cuts_[quad];
+      cuts_[quad] = cut | fans << 2;
+      fans += cut == kCutFan ? 1 : 0;
+    }
+    fan_starts_.push_back({fans, 0});
+  }
+}
+
+absl::StatusOr<Buffer> QuadCutter::make(std::vector<std::uint32_t>& corners, std::vector<float>& positions) {
+  const std::uint32_t total = quad_count();
+  corners.resize(std::size_t{6} * (total + fans()));
+  positions.resize(std::size_t{3} * fans());
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shaders::kMeshTriangles));
+  ISOFIELD_ASSIGN_OR_RETURN(Buffer centres,
+                            Buffer::create(device_, std::size_t{12} * std::max(fans(), 1u), Buffer::Use::kDevice));
+  for (std::uint32_t first = 0; first < total; first += kQuadSlab) {
+    ISOFIELD_RETURN_IF_ERROR(check_(0.96 + 0.03 * first / total));
+    const std::uint32_t count = std::min(kQuadSlab, total - first);
+    const std::size_t begin = std::size_t{6} * (first + fans_before(first));
+    const std::size_t end = std::size_t{6} * (first + count + fans_before(first + count));
+    ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+    ISOFIELD_ASSIGN_OR_RETURN(const Buffer triangles, session.scratch(4 * (end - begin)));
+    MeshConstants constants = constants_;
+    constants.first = first;
+    constants.count = count;
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
+        kernel,
+        with_quads({{11, &corners_}, {12, &cuts_buffer_}, {13, &triangles}, {14, &centres}, {15, &fan_starts_buffer_}}),
+        constants, mesh_groups(count)));
+    ISOFIELD_RETURN_IF_ERROR(session.download(triangles, std::span(corners).subspan(begin, end - begin)));
+    if (first + count == total) {
+      ISOFIELD_RETURN_IF_ERROR(session.download(centres, std::span(positions)));
+    }
+    ISOFIELD_RETURN_IF_ERROR(session.run());
+  }
+  return centres;
+}
+
+}  // namespace isofield::engine

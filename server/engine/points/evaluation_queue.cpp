@@ -1,0 +1,245 @@
+#include "engine/points/evaluation_queue.h"
+
+#include <absl/strings/cord.h>
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+
+#include "base/status_macros.h"
+
+namespace isofield::engine {
+namespace {
+
+// What a submission still counts after each further one.
+constexpr double kMemory = 0.9;
+
+constexpr char kRetryPayload[] = "isofield/retry-after-ms";
+
+std::size_t points_of(const PointBatch& batch) {
+  return batch.xyz.size() / 3;
+}
+
+gpu::Urgency urgency_of(const PointBatch& batch) {
+  return {points_of(batch) <= EvaluationQueue::kSmallPoints, batch.priority, batch.deadline};
+}
+
+absl::Status deadline_exceeded() {
+  return absl::DeadlineExceededError("the request's deadline has passed before it was run");
+}
+
+}  // namespace
+
+std::optional<std::int64_t> retry_after_ms(const absl::Status& status) {
+  const auto payload = status.GetPayload(kRetryPayload);
+  std::int64_t ms = 0;
+  if (!payload || !absl::SimpleAtoi(std::string(*payload), &ms)) return std::nullopt;
+  return ms;
+}
+
+EvaluationQueue::~EvaluationQueue() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+  }
+  left_over_.notify_one();
+  dispatcher_.join();
+}
+
+void EvaluationQueue::submit(PointBatch batch, Done done) {
+  if (batch.xyz.empty()) return done(absl::OkStatus());
+  if (const absl::Status s = admit(batch); !s.ok()) return done(s);
+  auto self = std::make_unique<Waiting>(Waiting{.batch = std::move(batch), .done = std::move(done), .status = {}});
+  if (points_of(self->batch) > kSmallPoints) {
+    self->status = evaluate_large(self->batch);
+    return answer(*self);
+  }
+  Batches answered;
+  {
+    std::unique_lock lock(mutex_);
+    waiting_points_ += points_of(self->batch);
+    waiting_.push_back(std::move(self));
+    more_came_.notify_one();
+    if (is_led_) return;
+    answered = run_next(lock);
+  }
+  for (const auto& a : answered) answer(*a);
+}
+
+absl::Status EvaluationQueue::evaluate(const PointBatch& batch) {
+  // Shared, so that it outlives the call of `done` that ends the wait.
+  const auto outcome = std::make_shared<std::promise<absl::Status>>();
+  std::future<absl::Status> future = outcome->get_future();
+  submit(batch, [outcome](const absl::Status& status) { outcome->set_value(status); });
+  return future.get();
+}
+
+void EvaluationQueue::dispatch() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    left_over_.wait(lock, [&] { return is_over_ || (!is_led_ && !waiting_.empty()); });
+    if (is_over_) return;
+    const Batches answered = run_next(lock);
+    lock.unlock();
+    for (const auto& a : answered) answer(*a);
+    lock.lock();
+  }
+}
+
+void EvaluationQueue::answer(Waiting& batch) {
+  {
+    const std::lock_guard lock(mutex_);
+    --requests_;
+    points_ -= points_of(batch.batch);
+  }
+  batch.done(batch.status);
+}
+
+std::size_t EvaluationQueue::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return waiting_.size();
+}
+
+absl::Status EvaluationQueue::admit(const PointBatch& batch) {
+  const std::lock_guard lock(mutex_);
+  const bool fits = requests_ < limits_.max_requests && points_ + points_of(batch) <= limits_.max_points;
+  if (!fits && !batch.is_admitted && requests_ > 0) return refusal();
+  ++requests_;
+  points_ += points_of(batch);
+  return absl::OkStatus();
+}
+
+absl::Status EvaluationQueue::refusal() const {
+  // When what is there is done, as far as one can tell.
+  const double seconds = recent_seconds_ / std::max(recent_points_, 1.0) * static_cast<double>(points_);
+  const double ms = std::clamp(std::ceil(1e3 * seconds), 1.0, 10'000.0);
+  absl::Status status = absl::ResourceExhaustedError(absl::StrCat(
+      requests_, " requests with ", points_, " points wait or run; ", limits_.max_requests, " with ",
+      limits_.max_points, " are admitted (--max-queued-requests, --max-queued-points): try again in ", ms, " ms"));
+  status.SetPayload(kRetryPayload, absl::Cord(absl::StrCat(ms)));
+  return status;
+}
+
+absl::Status EvaluationQueue::evaluate_large(const PointBatch& batch) {
+  const auto is_late = [&] { return batch.deadline <= now_(); };
+  if (is_late()) return deadline_exceeded();
+  RequestTimes unasked;
+  const auto cancelled = [&] { return (batch.cancelled && batch.cancelled()) || is_late(); };
+  const absl::Status status =
+      run(batch, batch.xyz, batch.out, cancelled, {}, batch.times ? *batch.times : unasked);
+  return absl::IsCancelled(status) && is_late() ? deadline_exceeded() : status;
+}
+
+// What is to go next is decided when the device is free. The lock is given up in between, and the answers are the
+// caller's to give: the next submission need not wait for them.
+EvaluationQueue::Batches EvaluationQueue::run_next(std::unique_lock<std::mutex>& lock) {
+  is_led_ = true;
+  wait_for_more(lock);
+  const gpu::Urgency urgency = most_urgent();
+  lock.unlock();
+  gpu::Turns::Turn turn = turns_.take(urgency);
+  lock.lock();
+  Batches taken = take_next();
+  lock.unlock();
+  std::vector<Waiting*> running;
+  for (const auto& w : taken) {
+    if (w->batch.deadline <= now_()) {
+      w->status = deadline_exceeded();
+    } else if (w->batch.cancelled && w->batch.cancelled()) {
+      w->status = absl::CancelledError("the request was cancelled");
+    } else {
+      running.push_back(w.get());
+    }
+  }
+  if (!running.empty()) {
+    const auto start = std::chrono::steady_clock::now();
+    RequestTimes times;
+    const absl::Status status = run_joined(running, std::move(turn), times);
+    for (Waiting* w : running) {
+      w->status = status;
+      if (!w->batch.times) continue;
+      w->batch.times->add_queued(start - w->came + times.queued());
+      w->batch.times->add_on_device(times.on_device());
+    }
+  }
+  turn = {};
+  lock.lock();
+  is_led_ = false;
+  if (!waiting_.empty()) left_over_.notify_one();
+  return taken;
+}
+
+gpu::Urgency EvaluationQueue::most_urgent() const {
+  gpu::Urgency most = urgency_of(waiting_.front()->batch);
+  for (const auto& w : waiting_) {
+    if (const gpu::Urgency u = urgency_of(w->batch); gpu::is_more_urgent(u, most)) most = u;
+  }
+  return most;
+}
+
+void EvaluationQueue::wait_for_more(std::unique_lock<std::mutex>& lock) {
+  if (limits_.delay.count() == 0) return;
+  more_came_.wait_for(lock, limits_.delay, [&] { return waiting_points_ >= kJoinedPoints; });
+}
+
+// The first one, and those that can go with it in the order of their urgency.
+EvaluationQueue::Batches EvaluationQueue::take_next() {
+  std::vector<std::unique_ptr<Waiting>*> order;
+  for (auto& w : waiting_) order.push_back(&w);
+  const bool is_oldest_first = ++picks_ % gpu::kPatience == 0;
+  std::stable_sort(order.begin() + (is_oldest_first ? 1 : 0), order.end(), [](const auto* a, const auto* b) {
+    return gpu::is_more_urgent(urgency_of((*a)->batch), urgency_of((*b)->batch));
+  });
+  const PointBatch& first = (*order.front())->batch;
+  Batches joined;
+  std::size_t points = 0;
+  for (std::unique_ptr<Waiting>* w : order) {
+    const PointBatch& batch = (*w)->batch;
+    if (batch.scene != first.scene || batch.quantity != first.quantity) continue;
+    if (!joined.empty() && points + points_of(batch) > kJoinedPoints) break;
+    points += points_of(batch);
+    joined.push_back(std::move(*w));
+  }
+  std::erase(waiting_, nullptr);
+  waiting_points_ -= points;
+  return joined;
+}
+
+absl::Status EvaluationQueue::run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn,
+                                         RequestTimes& times) {
+  const PointBatch& first = joined.front()->batch;
+  if (joined.size() == 1) return run(first, first.xyz, first.out, first.cancelled, std::move(turn), times);
+  std::vector<float> xyz;
+  for (const Waiting* w : joined) xyz.insert(xyz.end(), w->batch.xyz.begin(), w->batch.xyz.end());
+  std::vector<float> out(xyz.size() / 3 * components(first.quantity));
+  // Goes on for as long as one of them wants it.
+  const auto cancelled = [&] {
+    return std::all_of(joined.begin(), joined.end(),
+                       [](const Waiting* w) { return w->batch.cancelled && w->batch.cancelled(); });
+  };
+  ISOFIELD_RETURN_IF_ERROR(run(first, xyz, out, cancelled, std::move(turn), times));
+  auto from = out.begin();
+  for (const Waiting* w : joined) {
+    std::copy_n(from, w->batch.out.size(), w->batch.out.begin());
+    from += static_cast<std::ptrdiff_t>(w->batch.out.size());
+  }
+  return absl::OkStatus();
+}
+
+absl::Status EvaluationQueue::run(const PointBatch& first, std::span<const float> xyz, std::span<float> out,
+                                  const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn,
+                                  RequestTimes& times) {
+  const TimedScope timed(times);
+  const gpu::Deadline start = now_();
+  const absl::Status status =
+      run_(*first.scene, xyz, first.quantity, out, cancelled, {urgency_of(first), std::move(turn)});
+  const double seconds = std::chrono::duration<double>(now_() - start).count();
+  const std::lock_guard lock(mutex_);
+  recent_seconds_ = kMemory * recent_seconds_ + seconds;
+  recent_points_ = kMemory * recent_points_ + static_cast<double>(xyz.size() / 3);
+  return status;
+}
+
+}  // namespace isofield::engine

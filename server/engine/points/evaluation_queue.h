@@ -1,0 +1,128 @@
+// A queue in which requests for values at points wait for the device, and small ones are joined.
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "engine/points/field_evaluator.h"
+#include "engine/request_times.h"
+#include "gpu/turns.h"
+
+namespace isofield::engine {
+
+struct QueueLimits {
+  // The most requests, and points of these, that may wait or run. Beyond either limit another request is refused,
+  // unless there is none.
+  std::uint64_t max_requests = 1024;
+  std::uint64_t max_points = 1u << 23;
+  // How long a submission that could start is held back so that others can join it.
+  std::chrono::microseconds delay{0};
+};
+
+// One request.
+struct PointBatch {
+  SceneLease scene;
+  std::span<const float> xyz;  // as of FieldEvaluator::evaluate
+  Quantity quantity = Quantity::kValue;
+  std::span<float> out;  // components(quantity) numbers a point
+  int priority = 0;      // the higher first
+  gpu::Deadline deadline = gpu::Deadline::max();
+  FieldEvaluator::Cancelled cancelled;
+  // If it is not null, it receives how long the batch waited and ran, before the batch is done.
+  RequestTimes* times = nullptr;
+  // True for batches whose number another limit already bounds, so that admission never refuses them.
+  bool is_admitted = false;
+};
+
+// After this many milliseconds a refused request may be sent again; of the status of a refusal alone.
+std::optional<std::int64_t> retry_after_ms(const absl::Status& status);
+
+// Small batches that wait when the device becomes free, of one scene and one quantity, go to it together, the most
+// urgent first: higher priority, then earlier deadline, then first come; the last of every kPatience submissions is
+// that of the batch that has waited longest. A large batch goes alone, and small ones pass between its pieces.
+//
+// A caller who finds nobody at it runs the next submission, with what is in it, so that a lone batch costs no change of
+// threads; what waits then is the queue's own thread's, and the next caller's. Thread-safe; nothing may wait when it is
+// destroyed.
+class EvaluationQueue {
+ public:
+  // Batches up to this size are small, and so many points at most are joined.
+  static constexpr std::size_t kSmallPoints = 4096, kJoinedPoints = 16'384;
+
+  // Runs a submission; FieldEvaluator::evaluate, where it is no test's.
+  using Run =
+      std::function<absl::Status(const ResidentScene&, std::span<const float> xyz, Quantity, std::span<float> out,
+                                 const FieldEvaluator::Cancelled&, FieldEvaluator::Submission)>;
+  using Clock = std::function<gpu::Deadline()>;
+
+  EvaluationQueue(gpu::Turns& turns, Run run, const QueueLimits& limits, Clock now = std::chrono::system_clock::now)
+      : turns_(turns), run_(std::move(run)), limits_(limits), now_(std::move(now)), dispatcher_([this] {
+          dispatch();
+        }) {}
+  ~EvaluationQueue();
+
+  // Called once with the outcome, when `out` is written: on the caller's thread, or on that of whoever ran the
+  // submission.
+  using Done = std::function<void(const absl::Status&)>;
+
+  // RESOURCE_EXHAUSTED: the queue is full; at once, and with retry_after_ms. DEADLINE_EXCEEDED, CANCELLED: before it
+  // was run, or between pieces. Others: those of the evaluation, which all in a submission share. A large batch is run
+  // before this returns.
+  void submit(PointBatch batch, Done done);
+  // The same, and waits for the outcome.
+  absl::Status evaluate(const PointBatch& batch);
+
+  // Small batches that wait.
+  std::size_t waiting() const;
+
+ private:
+  struct Waiting {
+    PointBatch batch;
+    Done done;
+    absl::Status status;
+    std::chrono::steady_clock::time_point came = std::chrono::steady_clock::now();
+  };
+  using Batches = std::vector<std::unique_ptr<Waiting>>;
+
+  absl::Status admit(const PointBatch& batch);
+  void answer(Waiting& batch);
+  absl::Status evaluate_large(const PointBatch& batch);
+  void dispatch();
+  Batches run_next(std::unique_lock<std::mutex>& lock);
+  gpu::Urgency most_urgent() const;
+  void wait_for_more(std::unique_lock<std::mutex>& lock);
+  Batches take_next();
+  absl::Status run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn, RequestTimes& times);
+  absl::Status refusal() const;
+  // run_, timed.
+  absl::Status run(const PointBatch& first, std::span<const float> xyz, std::span<float> out,
+                   const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn, RequestTimes& times);
+
+  gpu::Turns& turns_;
+  const Run run_;
+  const QueueLimits limits_;
+  const Clock now_;
+
+  mutable std::mutex mutex_;
+  Batches waiting_;  // by arrival
+  std::uint64_t waiting_points_ = 0;
+  std::condition_variable more_came_, left_over_;
+  bool is_led_ = false;  // a thread is at the next submission
+  bool is_over_ = false;
+  std::uint64_t picks_ = 0;
+  std::uint64_t requests_ = 0, points_ = 0;        // admitted and not yet answered
+  double recent_seconds_ = 0, recent_points_ = 0;  // of submissions, the older the less
+  std::thread dispatcher_;                         // last: it uses the others
+};
+
+}  // namespace isofield::engine

@@ -1,0 +1,333 @@
+#include "engine/points/field_evaluator.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <optional>
+#include <utility>
+
+#include "base/status_macros.h"
+#include "blobtree/cull/point_bins.h"
+#include "engine/dealing.h"
+#include "engine/residency/tape_windows.h"
+#include "engine/session.h"
+
+namespace isofield::engine {
+namespace {
+
+using blobtree::Brick;
+
+// What a subgroup of shaders/sorted_points.comp takes, and the invocations of a workgroup there, in
+// shaders/points.comp, and in shaders/tape_points.comp.
+using PointJob = std::array<std::uint32_t, 4>;
+constexpr std::uint32_t kPointsPerGroup = 64;
+
+// Instructions times points of one submission: what a cancelled request still waits for, and others with it. About
+// 0.07 s of gradient blends on two cores.
+constexpr std::uint64_t kSubmissionWork = 1u << 21;
+
+// Of a written kernel: points of a submission times WrittenKernels::work_of(), some 4 ms on two cores, where one after
+// another takes 0.3 ms more than both at once.
+constexpr std::size_t kWrittenWork = 1u << 22;
+
+// Of a batch that goes through an index: points of a piece at least, and a brick. What a piece reads and writes at
+// random stays in the processor's caches, and the next one is sorted while the device is at it.
+constexpr std::size_t kIndexedPoints = 1u << 17, kIndexedPointsPerBrick = 32;
+
+// Jobs of one dispatch.
+struct JobRun {
+  std::size_t first;
+  std::uint32_t count, window;
+  bool waits;  // for the work so far
+};
+
+// Deals each dispatch's jobs out. `windows`: of each job's tape. After every kSubmissionWork the work so far is waited
+// for.
+template <class Job, class Work>
+std::vector<JobRun> runs_of(std::vector<Job>& jobs, std::span<const std::uint32_t> windows, const gpu::Device& device,
+                            const Work& work_of) {
+  std::vector<JobRun> runs;
+  std::uint64_t work = 0;
+  for (std::size_t first = 0, end = 0; first < windows.size(); first = end) {
+    const bool waits = work >= kSubmissionWork;
+    if (waits) work = 0;
+    while (end < windows.size() && windows[end] == windows[first] && end - first < gpu::kMaxGroups &&
+           (end == first || work < kSubmissionWork)) {
+      work += work_of(jobs[end++]);
+    }
+    runs.push_back({first, static_cast<std::uint32_t>(end - first), windows[first], waits});
+    deal(jobs, first, end, device.description().dispatch_runs);
+  }
+  return runs;
+}
+
+template <class Dispatch>
+absl::Status record_runs(Session& session, std::span<const JobRun> runs, const FieldEvaluator::Cancelled& cancelled,
+                         const Dispatch& dispatch) {
+  for (const JobRun& run : runs) {
+    if (run.waits) ISOFIELD_RETURN_IF_ERROR(session.flush());
+    if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
+    ISOFIELD_RETURN_IF_ERROR(dispatch(run));
+  }
+  return absl::OkStatus();
+}
+
+// The whole tape's at all points, or pruned ones' at sorted points.
+bool is_sorted(const ResidentScene& scene) {
+  return scene.tape().code.size() > blobtree::kUnsortedInstructions;
+}
+
+const shaders::Spirv& points_shader(Quantity quantity, bool is_sorted) {
+  if (quantity == Quantity::kValue) return is_sorted ? shaders::kSortedPointsValue : shaders::kPointsValue;
+  return is_sorted ? shaders::kSortedPointsGradient : shaders::kPointsGradient;
+}
+
+struct GridConstants {
+  float origin[4];
+  float spacing[4];
+  std::uint32_t counts[3];
+  std::uint32_t first_brick;
+  std::uint32_t first_layer;
+  std::uint32_t layers;
+};
+
+}  // namespace
+
+absl::Status FieldEvaluator::prepare(const ResidentScene& scene, Quantity quantity) {
+  return kernels_
+      .get(points_shader(quantity, is_sorted(scene)), TapeWindows::windowed(device_, KernelKind::of(scene.tape())))
+      .status();
+}
+
+absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,
+                                      std::span<float> out, const Cancelled& cancelled, Submission submission) {
+  const std::size_t count = xyz.size() / 3;
+  if (count == 0) return absl::OkStatus();
+  const gpu::SharedPipeline written =
+      written_ ? written_->find(scene, quantity == Quantity::kValueAndGradient, count) : nullptr;
+  if (written) return evaluate_written(written, scene, xyz, quantity, out, cancelled, std::move(submission));
+  if (!is_sorted(scene)) return evaluate_unsorted(scene, xyz, quantity, out, cancelled, std::move(submission));
+  const bool may_make = !submission.turn;  // which takes a turn of its own
+  ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, may_make, cancelled));
+  if (index) return evaluate_indexed(*index, scene, xyz, quantity, out, cancelled, std::move(submission));
+  blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
+  TapeWindows tapes(device_, scene, std::move(bins.code));
+  std::vector<Group> groups;
+  for (const blobtree::PointGroup& g : bins.groups) {
+    groups.push_back({g.first, g.count, g.tape_begin, g.tape_count, 0});
+    if (g.tape_count > 0) groups.back().window = tapes.add(groups.back().tape_begin, g.tape_count);
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
+  piece.sorted = std::move(bins.points);
+  ISOFIELD_RETURN_IF_ERROR(tapes.upload(piece.session));
+  ISOFIELD_RETURN_IF_ERROR(record(piece, scene, tapes, groups, quantity, out, cancelled));
+  return piece.session.run();
+}
+
+absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const ResidentScene& scene,
+                                              std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                                              const Cancelled& cancelled, Submission submission) {
+  const std::size_t count = xyz.size() / 3, bricks = index.tapes().size();
+  const std::size_t most = std::max(kIndexedPoints, kIndexedPointsPerBrick * bricks);
+  const std::uint32_t points_per_job = this->points_per_job();
+  std::optional<Piece> running;
+  for (std::size_t first = 0; first < count; first += most) {
+    if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
+    const std::size_t part = std::min(most, count - first);
+    const std::span<const float> part_xyz = xyz.subspan(3 * first, 3 * part);
+    blobtree::PointGrid::Sorted sorted = index.grid().sort(part_xyz, workers_.for_each());
+    std::vector<Group> groups;
+    std::uint64_t work = 0;
+    for (std::size_t b = 0; b <= bricks; ++b) {
+      const std::uint32_t begin = sorted.starts[b], points = sorted.starts[b + 1] - begin;
+      if (points == 0) continue;
+      const PointIndex::Tape tape = b < bricks ? index.tapes()[b] : PointIndex::Tape{};
+      groups.push_back({begin, points, tape.begin, tape.count, tape.window});
+      work += std::uint64_t{(points + points_per_job - 1) / points_per_job * points_per_job} * tape.count;
+    }
+    // What is too much for one submission is submitted while it is recorded, and takes the turn that `running` holds.
+    if (work >= kSubmissionWork) ISOFIELD_RETURN_IF_ERROR(finish(running));
+    ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
+    piece.sorted = std::move(sorted.points);
+    ISOFIELD_RETURN_IF_ERROR(record(piece, scene, index.windows(), groups, quantity,
+                                    out.subspan(first * components(quantity), part * components(quantity)), cancelled));
+    ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(piece)));
+  }
+  return finish(running);
+}
+
+absl::Status FieldEvaluator::submit_after(std::optional<Piece>& running, Piece next) {
+  if (running) ISOFIELD_RETURN_IF_ERROR(running->session.wait());
+  ISOFIELD_RETURN_IF_ERROR(next.session.submit());
+  if (running) running->session.collect();
+  running = std::move(next);
+  return absl::OkStatus();
+}
+
+absl::Status FieldEvaluator::finish(std::optional<Piece>& running) {
+  if (running) {
+    ISOFIELD_RETURN_IF_ERROR(running->session.wait());
+    running->session.collect();
+  }
+  running.reset();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<FieldEvaluator::Piece> FieldEvaluator::begin_piece(Submission& submission) {
+  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
+  submission.turn = {};
+  return Piece{nullptr, {}, std::move(session)};
+}
+
+absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes,
+                                    std::span<const Group> groups, Quantity quantity, std::span<float> out,
+                                    const Cancelled& cancelled) {
+  const std::size_t count = out.size() / components(quantity);
+  const std::uint32_t points_per_job = this->points_per_job();
+  const std::uint32_t jobs_per_group = kPointsPerGroup / points_per_job;
+  std::vector<PointJob> jobs;
+  std::vector<std::uint32_t> windows;
+  const auto with_tape = std::find_if(groups.begin(), groups.end(), [](const Group& g) { return g.tape_count > 0; });
+  if (with_tape == groups.end()) {
+    std::fill(out.begin(), out.end(), 0.0f);
+    return absl::OkStatus();
+  }
+  jobs.reserve(count / points_per_job + groups.size());
+  windows.reserve(jobs.capacity());
+  std::uint32_t window = with_tape->window;  // where the field is 0, any will do
+  for (const Group& g : groups) {
+    if (g.tape_count > 0) window = g.window;
+    const std::uint32_t last = g.first + g.count - 1;
+    for (std::uint32_t at = g.first; at <= last; at += points_per_job) {
+      jobs.push_back({g.tape_begin, g.tape_count, at, last});
+      windows.push_back(window);
+    }
+  }
+  const std::vector<JobRun> runs =
+      runs_of(jobs, windows, device_, [&](const PointJob& job) { return std::uint64_t{job[1]} * points_per_job; });
+  const std::span sorted(reinterpret_cast<const float*>(piece.sorted.get()), 4 * count);
+  Session& session = piece.session;
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer job_buffer, session.upload(std::span(jobs)));
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.input(sorted));
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(out));
+  const KernelKind kind = KernelKind::of(scene.tape());
+  ISOFIELD_RETURN_IF_ERROR(record_runs(session, runs, cancelled, [&](const JobRun& run) -> absl::Status {
+    const std::array constants{static_cast<std::uint32_t>(run.first),
+                               static_cast<std::uint32_t>(run.first + run.count - 1),
+                               static_cast<std::uint32_t>(std::countr_zero(points_per_job))};
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel,
+                              kernels_.get(points_shader(quantity, true), tapes.kind(kind, run.window)));
+    return session.commands().dispatch(kernel,
+                                       tapes.bindings(run.window, {{4, &job_buffer}, {5, &points}, {7, &results}}),
+                                       constants, (run.count + jobs_per_group - 1) / jobs_per_group);
+  }));
+  ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
+  for (gpu::Buffer* b : {&job_buffer, &points, &results}) piece.buffers.push_back(std::move(*b));
+  return absl::OkStatus();
+}
+
+template <class Dispatch>
+absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const float> xyz, Quantity quantity,
+                                               std::span<float> out, const Cancelled& cancelled, Submission submission,
+                                               const Dispatch& dispatch) {
+  const std::size_t count = xyz.size() / 3;
+  std::optional<Piece> running;
+  for (std::size_t first = 0; first < count; first += most) {
+    if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
+    const std::size_t part = std::min(most, count - first);
+    ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
+    Session& session = piece.session;
+    const std::span<float> part_out = out.subspan(first * components(quantity), part * components(quantity));
+    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.input(xyz.subspan(3 * first, 3 * part)));
+    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(part_out));
+    const auto last = static_cast<std::uint32_t>(part - 1);
+    ISOFIELD_RETURN_IF_ERROR(
+        dispatch(session, gpu::Commands::Bindings{{6, &points}, {7, &results}}, last, last / kPointsPerGroup + 1));
+    ISOFIELD_RETURN_IF_ERROR(session.download(results, part_out));
+    for (gpu::Buffer* b : {&points, &results}) piece.buffers.push_back(std::move(*b));
+    ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(piece)));
+  }
+  return finish(running);
+}
+
+absl::Status FieldEvaluator::evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene,
+                                              std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                                              const Cancelled& cancelled, Submission submission) {
+  const std::size_t most = std::max<std::size_t>(kWrittenWork / WrittenKernels::work_of(scene.tape()), kPointsPerGroup);
+  return evaluate_in_order(
+      most, xyz, quantity, out, cancelled, std::move(submission),
+      [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last, std::uint32_t groups) {
+        // Nothing is read where a tape would be.
+        return session.commands().dispatch(kernel, scene.bindings(*own.front().buffer, own), last, groups);
+      });
+}
+
+absl::Status FieldEvaluator::evaluate_unsorted(const ResidentScene& scene, std::span<const float> xyz,
+                                               Quantity quantity, std::span<float> out, const Cancelled& cancelled,
+                                               Submission submission) {
+  TapeWindows tapes(device_, scene, scene.tape().code);
+  std::uint32_t begin = 0;
+  const auto length = static_cast<std::uint32_t>(scene.tape().code.size());
+  const std::uint32_t window = tapes.add(begin, length);
+  ISOFIELD_ASSIGN_OR_RETURN(
+      const gpu::SharedPipeline kernel,
+      kernels_.get(points_shader(quantity, false), tapes.kind(KernelKind::of(scene.tape()), window)));
+  bool is_uploaded = false;
+  return evaluate_in_order(kSubmissionWork / length, xyz, quantity, out, cancelled, std::move(submission),
+                           [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last,
+                               std::uint32_t groups) -> absl::Status {
+                             if (!std::exchange(is_uploaded, true)) ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
+                             return session.commands().dispatch(kernel, tapes.bindings(window, own),
+                                                                std::array{last, begin, length}, groups);
+                           });
+}
+
+absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,
+                                             std::uint32_t first_layer, Quantity quantity, std::span<float> out,
+                                             const Cancelled& cancelled) {
+  const std::size_t layer = std::size_t{lattice.cells[0]} * lattice.cells[1] * components(quantity);
+  const auto layers = static_cast<std::uint32_t>(out.size() / layer);
+  // Culled as a lattice of its own; the device numbers points in the whole one, so that they are the same bits.
+  blobtree::CullRequest part{.lattice = lattice, .keep = blobtree::Keep::kSupport, .cancelled = cancelled};
+  part.lattice.origin.z += lattice.spacing.z * first_layer;
+  part.lattice.cells[2] = layers;
+  ISOFIELD_ASSIGN_OR_RETURN(blobtree::BrickList bricks, blobtree::cull(scene.tape(), part));
+  std::vector<Brick>& wanted = bricks.bricks;
+  for (Brick& b : wanted) b.z += first_layer / blobtree::kBrickCells;
+  if (wanted.empty()) {
+    std::fill(out.begin(), out.end(), 0.0f);
+    return absl::OkStatus();
+  }
+  const KernelKind kind = KernelKind::of(scene.tape());
+  ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
+  TapeWindows tapes(device_, scene, std::move(bricks.code));
+  std::vector<std::uint32_t> windows;
+  for (Brick& b : wanted) windows.push_back(tapes.add(b.tape_begin, b.tape_count));
+  ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
+  constexpr std::uint64_t kPoints = blobtree::kCellsPerBrick;
+  const std::vector<JobRun> runs =
+      runs_of(wanted, windows, device_, [&](const Brick& b) { return b.tape_count * kPoints; });
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer brick_buffer, session.upload(std::span(wanted)));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.scratch(out.size_bytes()));
+  session.commands().fill_zero(results);
+  session.commands().barrier();
+  GridConstants constants{{static_cast<float>(lattice.origin.x), static_cast<float>(lattice.origin.y),
+                           static_cast<float>(lattice.origin.z)},
+                          {static_cast<float>(lattice.spacing.x), static_cast<float>(lattice.spacing.y),
+                           static_cast<float>(lattice.spacing.z)},
+                          {lattice.cells[0], lattice.cells[1], lattice.cells[2]},
+                          0,
+                          first_layer,
+                          layers};
+  const shaders::Spirv& shader = quantity == Quantity::kValue ? shaders::kGridValue : shaders::kGridGradient;
+  ISOFIELD_RETURN_IF_ERROR(record_runs(session, runs, cancelled, [&](const JobRun& run) -> absl::Status {
+    constants.first_brick = static_cast<std::uint32_t>(run.first);
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shader, tapes.kind(kind, run.window)));
+    return session.commands().dispatch(kernel, tapes.bindings(run.window, {{4, &brick_buffer}, {7, &results}}),
+                                       constants, run.count);
+  }));
+  ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
+  return session.run();
+}
+
+}  // namespace isofield::engine

@@ -1,0 +1,52 @@
+// A scene on the device: its tape, from which requests prune theirs, with the parameter buffers that kernels read.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "blobtree/tape/parameter_layout.h"
+#include "blobtree/tape/tape.h"
+#include "engine/residency/volume_cache.h"
+#include "engine/session.h"
+#include "gpu/buffer.h"
+#include "gpu/commands.h"
+#include "gpu/device.h"
+
+namespace isofield::engine {
+
+// Immutable: an edit makes a new one. A shared_ptr to it is the lease under which a request reads; the buffers go when
+// the last lease does.
+class ResidentScene : public std::enable_shared_from_this<ResidentScene> {
+ public:
+  static absl::StatusOr<std::shared_ptr<const ResidentScene>> create(gpu::Device& device, VolumeCache& volumes,
+                                                                     blobtree::Tape tape);
+  // With other parameters of operators: `tape` is this scene's but for these. Shares the leaves and the volumes.
+  absl::StatusOr<std::shared_ptr<const ResidentScene>> with_operations(gpu::Device& device, blobtree::Tape tape) const;
+
+  const blobtree::Tape& tape() const { return tape_; }
+  const blobtree::ParameterBuffers& parameters() const { return parameters_; }
+  // The bindings of a kernel that runs tapes pruned from this scene's, which lie in `code`, with its own ones.
+  gpu::Commands::Bindings bindings(const gpu::Buffer& code, const gpu::Commands::Bindings& own) const;
+  // Volumes that it shares with others count whole.
+  std::uint64_t device_bytes() const;
+  // Without volumes.
+  std::uint64_t own_bytes() const { return leaves_->size() + operations_.size() + tables_.size(); }
+  bool shares_leaves_with(const ResidentScene& other) const { return leaves_ == other.leaves_; }
+
+ private:
+  ResidentScene() = default;
+  absl::Status upload_operations(Session& session);
+
+  blobtree::Tape tape_;
+  blobtree::ParameterBuffers parameters_;
+  std::shared_ptr<const gpu::Buffer> leaves_;
+  gpu::Buffer operations_, tables_;
+  std::vector<VolumeLease> volumes_;  // by slot
+};
+
+using SceneLease = std::shared_ptr<const ResidentScene>;
+
+}  // namespace isofield::engine

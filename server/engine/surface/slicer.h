@@ -1,0 +1,31 @@
+// The field on a plane, with its level curves.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "blobtree/geometry/vec3.h"
+#include "engine/points/field_evaluator.h"
+#include "engine/surface/iso_lines.h"
+
+namespace isofield::engine {
+
+// Points origin + (i spacing[0]) u + (j spacing[1]) v, computed in double and rounded to float32.
+struct Plane {
+  blobtree::dvec3 origin, u, v;  // u, v: of unit length
+  std::array<double, 2> spacing{};
+  std::array<std::uint32_t, 2> counts{};
+};
+
+struct Slice {
+  std::vector<float> values;     // i fastest
+  std::vector<Polylines> lines;  // of each level, in model units along u and v from the origin
+};
+
+absl::StatusOr<Slice> slice(FieldEvaluator& fields, const ResidentScene& scene, const Plane& plane,
+                            std::span<const double> levels, const FieldEvaluator::Cancelled& cancelled = {});
+
+}  // namespace isofield::engine

@@ -1,0 +1,153 @@
+#include "engine/surface/surface_projector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/status_macros.h"
+#include "blobtree/geometry/vec3.h"
+
+namespace isofield::engine {
+namespace {
+
+using blobtree::dvec3;
+
+constexpr int kMostSteps = 40;
+
+// A function of the field that is 0 on the surface, and its derivative with respect to the field.
+struct Depth {
+  double value, slope;
+};
+
+// With f = (1 - r^2)^3 of a positive primitive, r is linear in the distance to it: one step of Newton's method on r
+// then finds its surface from anywhere, where the field itself flattens out towards its ends. Above 0.99, where only
+// sums and blends lead beyond 1, straight on.
+Depth radius_of(double f) {
+  const double v = std::min(f, 0.99), root = std::cbrt(v), r = std::sqrt(1 - root);
+  const double slope = -1 / (6 * root * root * r);
+  return {r + slope * (f - v), slope};
+}
+
+Depth depth_of(double f, const IsoLevel& level) {
+  if (level.law == operators::Law::kSigned) return {f - level.iso, 1};
+  if (f <= 0) return {1, 0};
+  const Depth radius = radius_of(f);
+  return {radius.value - radius_of(level.iso).value, radius.slope};
+}
+
+// A point on its way.
+struct Walker {
+  std::uint32_t number;
+  dvec3 at, step;  // where it is looked at now, and how it came there
+  dvec3 best;      // nearest so far; where the step began
+  double best_depth = std::numeric_limits<double>::infinity();
+};
+
+dvec3 rounded(const dvec3& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+void store(std::vector<float>& rows, std::size_t i, const dvec3& v) {
+  // One zero: a -0 means nothing to a client.
+  rows[3 * i] = static_cast<float>(v.x) + 0.0f;
+  rows[3 * i + 1] = static_cast<float>(v.y) + 0.0f;
+  rows[3 * i + 2] = static_cast<float>(v.z) + 0.0f;
+}
+
+class Projection {
+ public:
+  Projection(const ResidentScene& scene, const ProjectionRequest& request)
+      : request_(request), level_{request.iso, scene.tape().law}, count_(request.points.size() / 3) {
+    result_.positions.assign(request.points.begin(), request.points.end());
+    result_.normals.assign(3 * count_, 0);
+    result_.residuals.assign(count_, std::numeric_limits<float>::infinity());
+    result_.converged.assign(count_, 0);
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      const dvec3 p{request.points[3 * i], request.points[3 * i + 1], request.points[3 * i + 2]};
+      walkers_.push_back({i, p, {}, p});
+    }
+  }
+
+  bool done() const { return walkers_.empty(); }
+  Projections take_result() { return std::move(result_); }
+
+  std::vector<float> points() const {
+    std::vector<float> xyz(3 * walkers_.size());
+    for (std::size_t n = 0; n < walkers_.size(); ++n) store(xyz, n, walkers_[n].at);
+    return xyz;
+  }
+
+  // `fields`: value and gradient at points().
+  void advance(std::span<const float> fields) {
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < walkers_.size(); ++n) {
+      const float* f = &fields[4 * n];
+      if (advance(walkers_[n], f[0], {f[1], f[2], f[3]})) walkers_[kept++] = walkers_[n];
+    }
+    walkers_.resize(kept);
+  }
+
+ private:
+  // False: it stays where it is.
+  bool advance(Walker& w, double f, const dvec3& gradient) {
+    const Depth depth = depth_of(f, level_);
+    const double size = std::abs(depth.value), slope = length(gradient);
+    const dvec3 begin = w.best;
+    if (!(slope * std::abs(depth.slope) > 0)) {
+      // Stepped out of the field's reach, or never was in it.
+      return w.best_depth < std::numeric_limits<double>::infinity() && halve(w, begin);
+    }
+    // Not nearer: half of the way, which crosses no more of the surface.
+    if (!(size < w.best_depth) && size > 0) return halve(w, begin);
+    w.best = w.at;
+    w.best_depth = size;
+    const double residual = std::abs(level_.excess(f)) / slope;
+    store(result_.positions, w.number, w.at);
+    store(result_.normals, w.number, gradient * (-level_.inward() / slope));
+    result_.residuals[w.number] = static_cast<float>(residual);
+    if (residual <= request_.tolerance) {
+      result_.converged[w.number] = 1;
+      return false;
+    }
+    w.step = gradient * (-depth.value / (depth.slope * slope * slope));
+    w.at = rounded(w.best + w.step);
+    return settle(w);
+  }
+
+  bool halve(Walker& w, const dvec3& begin) {
+    w.step = w.step * 0.5;
+    w.at = rounded(begin + w.step);
+    return settle(w);
+  }
+
+  // False: float32 has no point nearer to the surface.
+  bool settle(Walker& w) {
+    const bool moves = w.at != w.best;
+    const dvec3& b = w.best;
+    const double resolution = 0x1p-22 * std::max({std::abs(b.x), std::abs(b.y), std::abs(b.z)});
+    if (!moves) result_.converged[w.number] = result_.residuals[w.number] <= std::max(request_.tolerance, resolution);
+    return moves;
+  }
+
+  const ProjectionRequest& request_;
+  const IsoLevel level_;
+  const std::size_t count_;
+  std::vector<Walker> walkers_;
+  Projections result_;
+};
+
+}  // namespace
+
+absl::StatusOr<Projections> SurfaceProjector::project(const ResidentScene& scene, const ProjectionRequest& request,
+                                                      const FieldEvaluator::Cancelled& cancelled) {
+  Projection projection(scene, request);
+  for (int step = 0; step < kMostSteps && !projection.done(); ++step) {
+    const std::vector<float> xyz = projection.points();
+    std::vector<float> fields(xyz.size() / 3 * components(Quantity::kValueAndGradient));
+    ISOFIELD_RETURN_IF_ERROR(fields_.evaluate(scene, xyz, Quantity::kValueAndGradient, fields, cancelled));
+    projection.advance(fields);
+  }
+  return projection.take_result();
+}
+
+}  // namespace isofield::engine

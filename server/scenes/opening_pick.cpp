@@ -1,0 +1,163 @@
+#include "scenes/opening_pick.h"
+
+#include <absl/strings/ascii.h>
+#include <absl/strings/numbers.h>
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "base/quoted.h"
+#include "base/status_macros.h"
+#include "blobtree/scene/node_reader.h"
+
+namespace isofield::rpc {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// The place of the node that a name or "#i" refers to.
+std::optional<int> find_node(const v1::Scene& scene, const std::string& reference) {
+  if (!reference.empty() && reference[0] == '#') {
+    int index = 0;
+    const bool is_index = std::all_of(reference.begin() + 1, reference.end(), absl::ascii_isdigit) &&
+                          absl::SimpleAtoi(reference.substr(1), &index) && index < scene.nodes_size();
+    return is_index ? std::optional(index) : std::nullopt;
+  }
+  for (int i = 0; i < scene.nodes_size() && !reference.empty(); ++i) {
+    if (scene.nodes(i).name() == reference) return i;
+  }
+  return std::nullopt;
+}
+
+// Whether a node's field is a positive one; nothing: it is as its first child is.
+std::optional<bool> states_positive(const v1::Node& node, const blobtree::OperatorTable& operators) {
+  switch (node.kind_case()) {
+    case v1::Node::kSphere:
+      return node.sphere().law() != v1::SIGNED;
+    case v1::Node::kSegment:
+      return node.segment().law() != v1::SIGNED;
+    case v1::Node::kBox:
+      return node.box().law() != v1::SIGNED;
+    case v1::Node::kCylinder:
+      return node.cylinder().law() != v1::SIGNED;
+    case v1::Node::kTorus:
+      return node.torus().law() != v1::SIGNED;
+    case v1::Node::kEllipsoid:
+      return node.ellipsoid().law() != v1::SIGNED;
+    case v1::Node::kRUnion:
+    case v1::Node::kPasko:
+    case v1::Node::kSuperelliptic:
+    case v1::Node::kFunctional:
+    case v1::Node::kBt2:
+    case v1::Node::kBtk:
+    case v1::Node::kHarden:
+      return false;
+    case v1::Node::kMax:
+    case v1::Node::kMin:
+    case v1::Node::kDifference:
+    case v1::Node::kTransform:
+      return std::nullopt;
+    case v1::Node::kCustom:
+      switch (operators.at(node.custom().operator_())->kind) {
+        case operators::Kind::kMax:
+        case operators::Kind::kMin:
+        case operators::Kind::kDifference:
+          return std::nullopt;
+        case operators::Kind::kRUnion:
+        case operators::Kind::kPasko:
+        case operators::Kind::kSuperelliptic:
+        case operators::Kind::kFunctional:
+        case operators::Kind::kBt2:
+        case operators::Kind::kBtk:
+          return false;
+        default:
+          return true;
+      }
+    default:
+      return true;
+  }
+}
+
+// Of a scene that has been read: without cycles, every reference a node's.
+bool is_positive(const FoundScene& found, int index) {
+  while (true) {
+    const v1::Node& node = found.scene->nodes(index);
+    const std::optional<bool> stated = states_positive(node, *found.operators);
+    if (stated) return *stated;
+    index = *find_node(*found.scene, *blobtree::child_references(node).front());
+  }
+}
+
+struct Sample {
+  double f = 0;
+  std::array<double, 3> gradient{};
+};
+
+// A node's field at a point of its own frame.
+absl::StatusOr<Sample> sample(const FoundScene& found, const std::string& node, std::span<const float> point,
+                              engine::Engine& engine) {
+  v1::Scene rooted = *found.scene;
+  rooted.set_root(node);
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease scene, engine.make_resident(rooted, *found.operators));
+  std::array<float, 4> out{};
+  ISOFIELD_RETURN_IF_ERROR(engine.fields().evaluate(*scene, point, engine::Quantity::kValueAndGradient, out));
+  return Sample{out[0], {out[1], out[2], out[3]}};
+}
+
+// Radians; 0 where one of them vanishes.
+double angle_between(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  const std::array<double, 3> cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  return std::atan2(std::hypot(cross[0], cross[1], cross[2]), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+
+}  // namespace
+
+absl::Status pick_opening(const FoundScene& found, const v1::PickOpeningRequest& request, engine::Engine& engine,
+                          v1::PickOpeningResponse& response) {
+  if (request.point_size() != 3) {
+    return absl::InvalidArgumentError(absl::StrCat("point holds ", request.point_size(), " numbers: expected 3"));
+  }
+  std::array<float, 3> point{};
+  for (int i = 0; i < 3; ++i) {
+    if (!(std::abs(request.point(i)) <= blobtree::kMaxCoordinate)) {
+      return absl::InvalidArgumentError(absl::StrCat("point[", i, "] = ", request.point(i),
+                                                     ": expected a finite number of magnitude at most ",
+                                                     blobtree::kMaxCoordinate));
+    }
+    point[i] = static_cast<float>(request.point(i));
+  }
+  const std::string name = base::quoted(request.node());
+  const std::optional<int> index = find_node(*found.scene, request.node());
+  if (!index) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "node = ", name, " is no node: expected a node's name, or #0 to #", found.scene->nodes_size() - 1));
+  }
+  const auto children = blobtree::child_references(found.scene->nodes(*index));
+  if (children.size() != 2) {
+    return absl::InvalidArgumentError(absl::StrCat("node = ", name, " has ", children.size(),
+                                                   " children: expected a positive operator of 2"));
+  }
+  ISOFIELD_ASSIGN_OR_RETURN(const Sample first, sample(found, *children[0], point, engine));
+  ISOFIELD_ASSIGN_OR_RETURN(const Sample second, sample(found, *children[1], point, engine));
+  if (!is_positive(found, *index)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("node = ", name, " joins signed fields: expected a positive operator of 2 children"));
+  }
+  if (!(first.f > 0)) {
+    return absl::InvalidArgumentError(absl::StrCat("point = (", request.point(0), ", ", request.point(1), ", ",
+                                                   request.point(2),
+                                                   "): the first child's field is 0 there; expected "
+                                                   "a point of its surface"));
+  }
+  response.set_theta(std::min(std::atan2(second.f, first.f) * kDegrees, 45.0));
+  response.set_alpha(angle_between(first.gradient, second.gradient) * kDegrees);
+  response.set_f1(first.f);
+  response.set_f2(second.f);
+  return absl::OkStatus();
+}
+
+}  // namespace isofield::rpc
