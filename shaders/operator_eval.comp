@@ -5,7 +5,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-#include "operators.glsl"
+#include "instruction.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -42,8 +42,8 @@ Field steered(Field a, Field b, uint op, float by) {
   if (steering == STEERING_ALPHA) t = opening_tangent(floatBitsToUint(operation.x), by);
   uint blend = floatBitsToUint(operation.y);
   Blend g;
-  if (is_operator(op, OPERATOR_GRADIENT)) g = gradient_blend(a.f, b.f, t.x, SMOOTH_SILHOUETTE);
-  else if (is_operator(op, OPERATOR_GRADIENT_VOLUME)) {
+  if (HAS_OPERATOR_GRADIENT && op == OPERATOR_GRADIENT) g = gradient_blend(a.f, b.f, t.x, SMOOTH_SILHOUETTE);
+  else if (HAS_OPERATOR_GRADIENT_VOLUME && op == OPERATOR_GRADIENT_VOLUME) {
     g = volume_blend(a.f, b.f, t.x, blend & 0xffu, blend >> 8u, operation.w > 0.0);
   } else g = gradient_blend(a.f, b.f, t.x, silhouette_half(blend, a.f, b.f));
   Field r = zero_field();
@@ -65,9 +65,8 @@ Field result(uint row, uint slot) {
     angle.versine = chain(angle.cosine, cosine > 0.0 ? sine * sine / (1.0 + cosine) : 1.0 - cosine, -1.0);
     angle.ratio = dual(clamp(arguments[at + operands + 2u], 1.0 / MOST_RATIO, MOST_RATIO));
   }
-  bool is_btk = is_operator(op, OPERATOR_BTK);
   Field r = zero_field();
-  if (is_btk || is_operator(op, OPERATOR_SUPERELLIPTIC)) {
+  if (is_of_many(op)) {
     Field x[MAX_OPERANDS];
     for (uint j = 0u; j < uint(MAX_OPERANDS); ++j) {
       x[j] = zero_field();
@@ -77,8 +76,7 @@ Field result(uint row, uint slot) {
     uint mask = (1u << operands) - 1u, form = mode & 3u;
     if (form != FORM_UNION) turn_operands(x, mask, form);
     angle.ratio = reciprocal(angle.ratio);  // that of x[0] over x[1]
-    if (is_btk) r = blend_btk(x, mask, record, angle);
-    else r = blend_superelliptic(x, mask, record, angle);
+    r = unite_many(x, op, mask, record, angle);
     r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
   } else {
     Field a = operand(arguments[at], 0u), b = operand(arguments[at + 1u], 1u);
@@ -87,8 +85,7 @@ Field result(uint row, uint slot) {
       a = select_field(a, complement(a, mode), (mode & 3u) != FORM_UNION);
       b = select_field(b, complement(b, mode), (mode & 3u) == FORM_INTERSECTION);
     }
-    if (is_operator(op, OPERATOR_GRADIENT) || is_operator(op, OPERATOR_GRADIENT_TABLE) ||
-        is_operator(op, OPERATOR_GRADIENT_VOLUME)) r = steered(a, b, op, by);
+    if (is_steered_operator(op)) r = steered(a, b, op, by);
     else r = unite(a, b, op, record, angle);
     if (has_modes()) r = formed(r, first, second, mode);
   }

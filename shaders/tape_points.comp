@@ -6,7 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "instruction.glsl"
-#include "leaves.glsl"
+#include "leaves.glsl"  // written at build time
 #include "output.glsl"
 #include "tape.glsl"
 

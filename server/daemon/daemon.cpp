@@ -33,10 +33,10 @@
 #include "rpc/operator_service.h"
 #include "rpc/reflection_service.h"
 #include "rpc/scene_service.h"
-#include "scenes/scene_source.h"
 #include "rpc/shared_regions.h"
 #include "rpc/surface_service.h"
 #include "rpc/unreadable_requests.h"
+#include "scenes/scene_source.h"
 
 namespace isofield::daemon {
 namespace {

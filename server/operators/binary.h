@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/value_of.h"
+
 namespace isofield::operators {
 
 template <class T>
@@ -11,9 +13,10 @@ struct Binary {
   T g, g1, g2;
 };
 
-inline double value_of(double x) {
-  return x;
-}
+// Signed fields of nested and folded operators end here, where float32 nearly does, and are constant beyond.
+inline constexpr double kMostField = 1e37;
+
+using base::value_of;
 
 // The same operator with its operands exchanged.
 template <class T>

@@ -1,130 +1,182 @@
-// A composition operator by itself, with its parameters and without operands: what scenes, the catalog of operators,
-// reference/ and the device's tapes describe operators with.
+// The table of all kinds of operators, and a composition operator by itself, with its parameters and without operands:
+// what scenes, the catalogue, reference/ and tapes describe operators with.
 #pragma once
 
-#include <algorithm>
-#include <compare>
+#include <array>
 #include <memory>
-#include <vector>
+#include <string_view>
+#include <type_traits>
+#include <variant>
 
-#include "operators/opening.h"
-#include "operators/sampled_curve.h"
-#include "operators/silhouette.h"
+#include "operators/barthe.h"
+#include "operators/bernhardt.h"
+#include "operators/bt2.h"
+#include "operators/btk.h"
+#include "operators/clean.h"
+#include "operators/difference.h"
+#include "operators/functional.h"
+#include "operators/gradient.h"
+#include "operators/kind.h"
+#include "operators/max.h"
+#include "operators/min.h"
+#include "operators/pasko.h"
+#include "operators/r_union.h"
+#include "operators/ricci.h"
+#include "operators/sampled.h"
+#include "operators/sum.h"
+#include "operators/superelliptic.h"
 
 namespace isofield::operators {
 
-// What the values of a field mean (scene.proto, FieldLaw).
-enum class Law { kPositive, kSigned };
+// Every kind of blend that a scene's node may be: its struct, and its field in the messages Node and Operator.
+#define ISOFIELD_BLENDS(ROW)         \
+  ROW(Sum, sum)                      \
+  ROW(Max, max)                      \
+  ROW(Min, min)                      \
+  ROW(Difference, difference)        \
+  ROW(Ricci, ricci)                  \
+  ROW(Gradient, gradient)            \
+  ROW(Clean, clean)                  \
+  ROW(Barthe, barthe)                \
+  ROW(Bernhardt, bernhardt)          \
+  ROW(RUnion, r_union)               \
+  ROW(Pasko, pasko)                  \
+  ROW(Superelliptic, superelliptic)  \
+  ROW(Functional, functional)        \
+  ROW(Bt2, bt2)                      \
+  ROW(Btk, btk)
+// Those and the kinds that the catalogue alone holds; scenes use them by name.
+#define ISOFIELD_OPERATORS(ROW) \
+  ISOFIELD_BLENDS(ROW)          \
+  ROW(Sampled, sampled)
 
-// scene.proto, Form.
-enum class Form { kUnion, kIntersection, kDifference };
+// Everything that an instruction of a tape may do with its operands: its name, the .glsl in shaders/lib/operators/ that
+// holds its function, how that function takes operands (Applies, below), what seams the result may have, and whether it
+// takes less time than a leaf.
+#define ISOFIELD_OPCODES(ROW)                                                      \
+  ROW(Push, push, , kNothing, kNoSeam, kIsLight)                                   \
+  ROW(Sum, sum, sum, kTwo, kNoSeam, kIsLight)                                      \
+  ROW(Max, max, max, kTwo, kNoSeam, kIsLight)                                      \
+  ROW(Min, min, min, kTwo, kNoSeam, kIsLight)                                      \
+  ROW(Subtract, subtract, difference, kTwo, kNoSeam, kIsLight)                     \
+  ROW(SubtractFrom, subtract_from, difference, kTwo, kNoSeam, kIsLight)            \
+  ROW(Ricci, ricci, ricci, kTwo, kNoSeam, kIsHeavy)                                \
+  ROW(Gradient, gradient, gradient, kSteeredTwo, kNoSeam, kIsHeavy)                \
+  ROW(GradientTable, gradient_table, gradient, kSteeredTwo, kNoSeam, kIsHeavy)     \
+  ROW(GradientVolume, gradient_volume, gradient, kSteeredTwo, kNoSeam, kIsHeavy)   \
+  ROW(Clean, clean, clean, kTwo, kHasSeams, kIsHeavy)                              \
+  ROW(Barthe, barthe, barthe, kTwo, kNoSeam, kIsHeavy)                             \
+  ROW(Bernhardt, bernhardt, bernhardt, kTwo, kNoSeam, kIsHeavy)                    \
+  ROW(Pasko, pasko, pasko, kTwo, kHasSeams, kIsHeavy)                              \
+  ROW(Functional, functional, functional, kTwo, kNoSeam, kIsHeavy)                 \
+  ROW(Bt2, bt2, bt2, kTwo, kHasSeams, kIsHeavy)                                    \
+  ROW(Superelliptic, superelliptic, superelliptic, kMany, kNoSeam, kIsHeavy)       \
+  ROW(Btk, btk, btk, kMany, kNoSeam, kIsHeavy)                                     \
+  ROW(Linear, linear, conversions, kOne, kNoSeam, kIsLight)                        \
+  ROW(Soften, soften, conversions, kOne, kNoSeam, kIsLight)
 
-enum class Kind {
-  kSum,
-  kMax,
-  kMin,
-  kDifference,
-  kRicci,
-  kGradient,
-  kClean,
-  kBarthe,
-  kBernhardt,
-  kRUnion,
-  kPasko,
-  kSuperelliptic,
-  kFunctional,
-  kBt2,
-  kBtk,
-  kSampled
+#define ISOFIELD_ENUMERATOR(Name, ...) k##Name,
+enum class Kind : std::uint8_t { ISOFIELD_OPERATORS(ISOFIELD_ENUMERATOR) kCount };
+enum class Opcode : std::uint8_t { ISOFIELD_OPCODES(ISOFIELD_ENUMERATOR) kCount };
+#undef ISOFIELD_ENUMERATOR
+
+// How the function of an opcode takes its operands.
+enum class Applies {
+  kNothing,     // it has none: the operand is pushed
+  kTwo,         // unite_NAME(a, b, record, angle)
+  kSteeredTwo,  // unite_NAME(a, b, u, v, record): u and v have the directions that steer it
+  kMany,        // unite_NAME(x, mask, record, angle)
+  kOne,         // apply_NAME(a, record), of the accumulator alone
 };
+// kHasSeams: makes_seams_NAME(record) tells whether the surface may turn where both operands are equal by less than
+// pictures show as a crease. Other functions even their own seams out, or have none.
+enum class Seams { kNoSeam, kHasSeams };
+enum class Weight { kIsLight, kIsHeavy };
 
-// What a blend with individual ranges knows of one operand.
-struct Term {
-  double range = 1;   // r_i
-  double power = 2;   // p_i
-  double weight = 1;  // m_i
-  auto operator<=>(const Term&) const = default;
+struct OpcodeTraits {
+  std::string_view name, file;
+  Applies applies;
+  Seams seams;
+  Weight weight;
 };
+#define ISOFIELD_ROW(Name, name, file, applies, seams, weight) \
+  OpcodeTraits{#name, #file, Applies::applies, Seams::seams, Weight::weight},
+inline constexpr std::array kOpcodes{ISOFIELD_OPCODES(ISOFIELD_ROW)};
+#undef ISOFIELD_ROW
+static_assert(kOpcodes.size() == static_cast<std::size_t>(Opcode::kCount));
 
-// Values of g on a lattice of (f1, f2, theta): f1 and f2 over [0, 1], theta over [0, pi/4]; f1 fastest.
-struct SampledVolume {
-  int size = 0;
-  std::vector<float> values;  // size^3
-};
-
-// The law of the fields that an operator takes and yields. kMax, kMin and kDifference take either.
-constexpr bool takes_either_law(Kind kind) {
-  return kind == Kind::kMax || kind == Kind::kMin || kind == Kind::kDifference;
-}
-constexpr Law law_of(Kind kind) {
-  switch (kind) {
-    case Kind::kRUnion:
-    case Kind::kPasko:
-    case Kind::kSuperelliptic:
-    case Kind::kFunctional:
-    case Kind::kBt2:
-    case Kind::kBtk:
-      return Law::kSigned;
-    default:
-      return Law::kPositive;
-  }
+constexpr const OpcodeTraits& traits_of(Opcode op) {
+  return kOpcodes[static_cast<std::size_t>(op)];
 }
 
-// The least c with g <= (1 + c) max(f1, f2) at every sample.
-inline double sampled_bound(const SampledVolume& v) {
-  double bound = 0;
-  for (int i = 0; i < v.size * v.size * v.size; ++i) {
-    const int most = std::max(i % v.size, i / v.size % v.size);
-    if (most > 0) bound = std::max(bound, double{v.values[i]} * (v.size - 1) / most - 1);
-  }
-  return bound;
-}
+#define ISOFIELD_TYPE(Name, ...) , Name
+template <class, class... Kinds>
+using VariantOf = std::variant<Kinds...>;
+using Parameters = VariantOf<void ISOFIELD_OPERATORS(ISOFIELD_TYPE)>;
+#undef ISOFIELD_TYPE
+static_assert(std::variant_size_v<Parameters> == static_cast<std::size_t>(Kind::kCount));
 
-// Only what the kind names counts. Angles in radians.
-struct Operator {
-  Kind kind = Kind::kMax;
+#define ISOFIELD_TRAITS(Name, ...) Name::kTraits,
+inline constexpr std::array kKinds{ISOFIELD_OPERATORS(ISOFIELD_TRAITS)};
+#undef ISOFIELD_TRAITS
+
+// The families that a kind belongs to; kind.h says what each asks for.
+template <class K>
+concept IsJoint = K::kTraits.arity == Arity::kJoint;
+template <class K>
+concept IsSteered = K::kTraits.arity == Arity::kSteered;
+template <class K>
+concept IsFolded = K::kTraits.arity == Arity::kFolded;
+template <class K>
+concept IsSigned = K::kTraits.fields == Fields::kSigned;
+
+class Operator {
+ public:
+  Operator() = default;
+  // A difference is one whatever `form` says.
+  template <class K>
+    requires(!std::is_same_v<std::remove_cvref_t<K>, Operator>)
+  Operator(K kind, Form form = Form::kUnion)  // NOLINT: a kind is an operator
+      : form(std::is_same_v<K, Difference> ? Form::kDifference : form), parameters(std::move(kind)) {}
+
   Form form = Form::kUnion;
+  Parameters parameters;
 
-  double exponent = 1;            // kRicci, kSuperelliptic: t
-  Opening opening = camel();      // kGradient, kSampled
-  Silhouette silhouette;          // kGradient
-  int volume = 0;                 // kGradient: 0, or samples a side
-  double theta1 = 0, theta2 = 0;  // kBarthe, kBernhardt
-  double weight = 1;              // kBernhardt
-  double a0 = 0, a1 = 1, a2 = 1;  // kPasko
-  std::vector<Term> terms;        // kSuperelliptic, kBt2, kBtk: one an operand, or one for all
-  double conic = 0;               // kBt2: p
-  bool by_angle = false;          // kSuperelliptic, kBt2, kBtk: ranges follow the angle between two gradients
-  double omega = 0.01;            // by_angle
-  SampledCurve curve;             // kFunctional: H, from x >= 0 on
-  std::shared_ptr<const SampledVolume> samples;  // kSampled
+  Kind kind() const { return static_cast<Kind>(parameters.index()); }
+  const Traits& traits() const { return kKinds[parameters.index()]; }
+  // Calls f(parameters of the kind).
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    return std::visit(std::forward<F>(f), parameters);
+  }
+  // The parameters of this kind, or null where the operator is of another.
+  template <class K>
+  const K* as() const {
+    return std::get_if<K>(&parameters);
+  }
 
-  const Term& term(std::size_t operand) const { return terms[terms.size() == 1 ? 0 : operand]; }
-  // By the angle between two gradients, through an opening function.
-  bool is_steered() const { return kind == Kind::kGradient || kind == Kind::kSampled; }
-  // Whether the angle between its operands' gradients changes the result.
-  bool follows_angle() const { return is_steered() || by_angle; }
   // Of all its operands at once, rather than folded over them.
-  bool is_n_ary() const { return kind == Kind::kSuperelliptic || kind == Kind::kBtk; }
-  // kBt2: 1 - p / (r1 r2), positive: 1 is the circle or ellipse, and large the union.
-  double tightness() const { return 1 - conic / (term(0).range * term(1).range); }
-  // The form it is applied in: kDifference is one by itself.
-  Form applied_form() const { return kind == Kind::kDifference ? Form::kDifference : form; }
-  // Ranges that follow an angle lie between omega and so many times the range that is stated.
-  double most_reach() const { return by_angle ? 2 + omega : 1; }
-  bool has_volume() const { return kind == Kind::kSampled || (kind == Kind::kGradient && volume != 0); }
+  bool is_joint() const { return traits().arity == Arity::kJoint; }
+  // By the angle between two gradients, through an opening function.
+  bool is_steered() const { return traits().arity == Arity::kSteered; }
+  bool takes_either_law() const { return traits().fields == Fields::kEither; }
+  // The law of its fields, where the kind takes those of one.
+  Law law() const { return traits().fields == Fields::kSigned ? Law::kSigned : Law::kPositive; }
+  // Whether its ranges follow the angle between two gradients (bulge_elimination.h).
+  bool has_angular_ranges() const;
+  // Whether the angle between its operands' gradients changes the result.
+  bool follows_angle() const { return is_steered() || has_angular_ranges(); }
+  OperandCount operand_count() const;
+  // Whether it makes a difference which of two operands is the first.
+  bool is_ordered() const;
+  bool may_crease() const;
+  Opcode opcode(Law law) const;
+  // What an operand's field is divided by where it alone makes the result: 1 but for blends with weights.
+  double weight(std::size_t operand) const;
+  // The opening of a steered operator, else null.
+  const Opening* opening() const;
+  // Its size is 0 where the operator is looked up in no volume.
+  VolumeKey volume_key() const;
 };
-
-// What makes two operators' volumes the same.
-struct VolumeKey {
-  Silhouette silhouette;
-  int size = 0;
-  const SampledVolume* samples = nullptr;
-  auto operator<=>(const VolumeKey&) const = default;
-};
-inline VolumeKey volume_key(const Operator& op) {
-  if (op.kind == Kind::kSampled) return {{}, op.samples->size, op.samples.get()};
-  return {op.silhouette, op.volume, nullptr};
-}
 
 }  // namespace isofield::operators

@@ -6,7 +6,8 @@
 #include <functional>
 
 #include "operators/gradient_blend.h"
-#include "operators/operator.h"
+#include "operators/gradient_blend.h"
+#include "operators/sampled.h"
 
 namespace isofield::operators {
 

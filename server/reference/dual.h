@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "blobtree/geometry/vec3.h"
+#include "reference/vec3.h"
 
 namespace isofield::reference {
 
@@ -56,7 +57,7 @@ inline Dual pow(const Dual& a, double exponent) {
   return chain(a, std::pow(a.v, exponent), exponent * std::pow(a.v, exponent - 1));
 }
 
-using DualVec3 = blobtree::Vec3<Dual>;
+using DualVec3 = Vec3<Dual>;
 
 inline DualVec3 cross(const DualVec3& a, const DualVec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

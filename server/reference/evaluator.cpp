@@ -12,12 +12,12 @@ using blobtree::dvec3;
 using blobtree::Node;
 using blobtree::NodeKind;
 
-Primitive place(const Node& node, const Affine& to_world) {
-  const Affine frame = to_world.after(node.frame);
+Primitive place(const blobtree::Primitive& p, const Affine& to_world) {
+  const Affine frame = to_world.after(p.frame);
   // The reader refuses singular transforms; a product of many may still underflow, to a primitive that is nowhere.
-  const std::optional<Affine> inverse = frame.inverse(), own = node.frame.inverse();
-  if (!inverse || !own) return {node.shape, node.size, 0, node.law, Affine::scale({}), {}, {}};
-  return {node.shape, node.size, node.range, node.law, {inverse->linear, {}}, frame.offset, {own->linear, {}}};
+  const std::optional<Affine> inverse = frame.inverse(), own = p.frame.inverse();
+  if (!inverse || !own) return {p.shape, 0, p.law, Affine::scale({}), {}, {}};
+  return {p.shape, p.range, p.law, {inverse->linear, {}}, frame.offset, {own->linear, {}}};
 }
 
 }  // namespace
@@ -42,8 +42,8 @@ Evaluator::Evaluator(const blobtree::Scene& scene) : nodes_(scene.nodes) {
     Step step{.node = top.node, .children = static_cast<std::uint32_t>(node.children.size())};
     if (node.kind == NodeKind::kPrimitive) {
       step.primitive = static_cast<std::uint32_t>(primitives_.size());
-      primitives_.push_back(place(node, top.to_world));
-      top.length = node.range;
+      primitives_.push_back(place(node.primitive, top.to_world));
+      top.length = node.primitive.range;
     }
     if (node.kind == NodeKind::kSoften) top.length = node.range;
     if (node.kind == NodeKind::kTransform) {

@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "operators/classic_blends.h"
-#include "operators/gradient_blend.h"
-#include "operators/ranged_blends.h"
-#include "operators/signed_blends.h"
-#include "operators/volume.h"
+#include "blobtree/primitives/falloff.h"
 #include "reference/jet.h"
+#include "reference/vec3.h"
 
 namespace isofield::reference {
 namespace {
 
 using blobtree::dvec3;
 using operators::Form;
-using operators::Kind;
 
 // |steering * length|^2 below which a steering vector counts as (nearly) null.
 constexpr double kNullBelow = 1e-3;
@@ -61,8 +57,8 @@ FieldState bounded(const FieldState& a) {
 
 // The opening angle with its derivatives: theta(alpha), drawn to theta_min where a steering vector vanishes
 // ([G] section 7). Drawn in tan(theta), which is what the operator uses.
-Dual opening_angle(const OperatorUse& use, const DualVec3& a, const DualVec3& b) {
-  const double least = use.op->opening.theta_min();
+Dual opening_angle(const OperatorUse& use, const operators::Opening& opening, const DualVec3& a, const DualVec3& b) {
+  const double least = opening.theta_min();
   const Dual square(use.length * use.length);
   const Dual n1 = dot(a, a) * square, n2 = dot(b, b) * square;
   if (std::min(n1.v, n2.v) <= kNull) return least;
@@ -70,30 +66,18 @@ Dual opening_angle(const OperatorUse& use, const DualVec3& a, const DualVec3& b)
   const DualVec3 u = scaled(a, reciprocal(sqrt(dot(a, a)))), v = scaled(b, reciprocal(sqrt(dot(b, b))));
   const DualVec3 normal = cross(u, v);
   const Dual alpha = atan2(sqrt(dot(normal, normal)), dot(u, v));
-  const operators::Curve theta = use.op->opening.theta(alpha.v);
+  const operators::Curve theta = opening.theta(alpha.v);
   const double tangent = std::tan(theta.v);
   const Dual least_tangent(std::tan(least));
   const Dual t = least_tangent + (chain(alpha, tangent, (1 + tangent * tangent) * theta.d1) - least_tangent) * weight;
   return chain(t, std::atan(t.v), 1 / (1 + t.v * t.v));
 }
 
-// The blend at a given angle: exact, or of the volume or the samples that the operator is looked up in.
-operators::Blend steered_blend(const operators::Operator& op, double f1, double f2, double theta) {
-  using operators::Continuation;
-  if (op.kind == Kind::kSampled) {
-    return operators::volume_blend(f1, f2, theta, op.samples->size, operators::sampled_nodes(*op.samples),
-                                   Continuation::kAboutOrigin);
-  }
-  if (op.volume != 0) {
-    return operators::volume_blend(f1, f2, theta, op.volume, operators::gradient_nodes(op.silhouette, op.volume),
-                                   Continuation::kAboutBoundary);
-  }
-  return operators::gradient_blend(f1, f2, theta, op.silhouette);
-}
-
-FieldState gradient_blend(const OperatorUse& use, const FieldState& a, const FieldState& b) {
-  const Dual theta = opening_angle(use, in_frame(use, a.steering), in_frame(use, b.steering));
-  const operators::Blend g = steered_blend(*use.op, a.field.v, b.field.v, theta.v);
+// A kind that is steered through an opening.
+template <class K>
+FieldState steer(const K& kind, const OperatorUse& use, const FieldState& a, const FieldState& b) {
+  const Dual theta = opening_angle(use, kind.opening, in_frame(use, a.steering), in_frame(use, b.steering));
+  const operators::Blend g = kind.blend(a.field.v, b.field.v, theta.v);
   const dvec3& f1 = a.field.d;
   const dvec3& f2 = b.field.d;
   const Dual g1{g.g1, f1 * g.g11 + f2 * g.g12 + theta.d * g.g1t};
@@ -103,10 +87,7 @@ FieldState gradient_blend(const OperatorUse& use, const FieldState& a, const Fie
 
 // The angle between the steering vectors of two signed fields: its cosine, 0 where one of them vanishes, and the ratio
 // of their lengths, as operators::eliminate_bulge() wants it.
-struct Angle {
-  Dual cosine, ratio;
-};
-Angle angle_between(const OperatorUse& use, const FieldState& a, const FieldState& b) {
+operators::Angle<Dual> angle_between(const OperatorUse& use, const FieldState& a, const FieldState& b) {
   const DualVec3 u = in_frame(use, a.steering), v = in_frame(use, b.steering);
   const Dual n1 = dot(u, u), n2 = dot(v, v);
   if (std::min(n1.v, n2.v) <= 1e-24) return {0.0, 1.0};
@@ -118,90 +99,40 @@ Angle angle_between(const OperatorUse& use, const FieldState& a, const FieldStat
   return {cosine, ratio};
 }
 
-FieldState bt2(const OperatorUse& use, const FieldState& a, const FieldState& b) {
-  const operators::Operator& op = *use.op;
-  const operators::Term &t1 = op.term(0), &t2 = op.term(1);
-  operators::Reach<Dual> r1{t1.range, t1.weight}, r2{t2.range, t2.weight};
-  if (op.by_angle) {
-    const Angle angle = angle_between(use, a, b);
-    eliminate_bulge(r1, r2, angle.cosine, angle.ratio, op.omega);
-  }
-  return bounded(joined(a, b, operators::bt2(a.field, b.field, r1, r2, op.tightness())));
-}
-
 // Unions of two operands in their order.
 FieldState unite(const OperatorUse& use, const FieldState& a, const FieldState& b) {
-  const operators::Operator& op = *use.op;
-  // A positive field of 0 leaves the other untouched. A maximum does so by itself, of fields of either law.
-  if (use.law == operators::Law::kPositive && op.kind != Kind::kMin && op.kind != Kind::kMax) {
-    if (a.field.v <= 0) return b;
-    if (b.field.v <= 0) return a;
-  }
-  switch (op.kind) {
-    case Kind::kSum:
-      return {a.field + b.field, a.steering + b.steering};
-    case Kind::kMax:
-      return a.field.v >= b.field.v ? a : b;
-    case Kind::kMin:
-    case Kind::kDifference:  // of positive fields it is the intersection, by duality the union, with a complement
-      return minimum(a, b);
-    case Kind::kRicci:
-      return joined(a, b, operators::ricci(a.field, b.field, op.exponent));
-    case Kind::kGradient:
-    case Kind::kSampled:
-      return gradient_blend(use, a, b);
-    case Kind::kClean:
-      return joined(a, b, operators::clean_union(a.field, b.field));
-    case Kind::kBarthe:
-      return joined(a, b, operators::barthe_blend(a.field, b.field, std::tan(op.theta1), std::tan(op.theta2)));
-    case Kind::kBernhardt:
-      return joined(a, b,
-                    operators::bernhardt_blend(a.field, b.field, std::tan(op.theta1), std::tan(op.theta2), op.weight));
-    case Kind::kRUnion:
-      return bounded(joined(a, b, operators::pasko_blend(a.field, b.field, 0, 1, 1)));
-    case Kind::kPasko:
-      return bounded(joined(a, b, operators::pasko_blend(a.field, b.field, op.a0, op.a1, op.a2)));
-    case Kind::kFunctional:
-      return bounded(joined(a, b, operators::functional_blend(a.field, b.field, op.curve)));
-    case Kind::kBt2:
-      return bt2(use, a, b);
-    case Kind::kSuperelliptic:
-    case Kind::kBtk:
-      break;
-  }
-  return a;  // n-ary
+  return use.op->visit([&]<class K>(const K& kind) -> FieldState {
+    // A positive field of 0 leaves the other untouched. Operators of either law do so by themselves.
+    if constexpr (K::kTraits.fields == operators::Fields::kPositive) {
+      if (a.field.v <= 0) return b;
+      if (b.field.v <= 0) return a;
+    }
+    if constexpr (operators::IsSteered<K>) {
+      return steer(kind, use, a, b);
+    } else if constexpr (operators::IsJoint<K>) {
+      return a;  // unite_all() is for these
+    } else if constexpr (requires(operators::Angle<Dual> angle) { kind.unite(a.field, b.field, angle); }) {
+      return bounded(joined(a, b, kind.unite(a.field, b.field, angle_between(use, a, b))));
+    } else {
+      const FieldState r = joined(a, b, kind.unite(a.field, b.field));
+      return operators::IsSigned<K> ? bounded(r) : r;
+    }
+  });
 }
 
+// All operands at once, in their order.
 FieldState unite_all(const OperatorUse& use, const std::vector<FieldState>& x) {
-  const operators::Operator& op = *use.op;
-  std::vector<operators::Reach<Dual>> reach;
-  std::vector<double> powers;
   std::vector<Dual> fields;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const operators::Term& t = op.term(i);
-    reach.push_back({t.range, t.weight});
-    powers.push_back(t.power);
-    fields.push_back(x[i].field);
-  }
-  if (op.by_angle) {
-    const Angle angle = angle_between(use, x[0], x[1]);
-    eliminate_bulge(reach[0], reach[1], angle.cosine, angle.ratio, op.omega);
-  }
-  FieldState r;
-  std::vector<Dual> partials;
-  if (op.kind == Kind::kBtk) {
-    operators::Rooted<Dual> root = operators::btk(fields, reach, powers);
-    r.field = root.g;
-    partials = std::move(root.partials);
-  } else {
-    r.field = 1.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const auto bracket = operators::superelliptic_bracket(fields[i], reach[i].range, op.exponent);
-      r.field = r.field - bracket.value;
-      partials.push_back(bracket.fall);
+  for (const FieldState& s : x) fields.push_back(s.field);
+  const operators::Joint<Dual> joint = use.op->visit([&]<class K>(const K& kind) -> operators::Joint<Dual> {
+    if constexpr (operators::IsJoint<K>) {
+      return kind.unite_all(fields, angle_between(use, x[0], x[1]));
+    } else {
+      return {};
     }
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) r.steering = r.steering + scaled(x[i].steering, partials[i]);
+  });
+  FieldState r{joint.g, {}};
+  for (std::size_t i = 0; i < x.size(); ++i) r.steering = r.steering + scaled(x[i].steering, joint.partials[i]);
   return bounded(r);
 }
 
@@ -225,8 +156,8 @@ FieldState evaluate_primitive(const Primitive& primitive, const dvec3& p) {
     return j;
   };
   const auto& rows = primitive.to_shape.linear;
-  const blobtree::Vec3<Jet> jets{seed(q.x, rows[0]), seed(q.y, rows[1]), seed(q.z, rows[2])};
-  Jet f = blobtree::shape_distance(primitive.shape, jets, primitive.size);
+  const Vec3<Jet> jets{seed(q.x, rows[0]), seed(q.y, rows[1]), seed(q.z, rows[2])};
+  Jet f = std::visit([&](const auto& shape) { return shape.distance(jets); }, primitive.shape);
   if (primitive.law == operators::Law::kPositive) f = blobtree::soften(f, primitive.range);
   const auto component = [&](int i) { return Dual(f.d[i], {f.h[i][0], f.h[i][1], f.h[i][2]}); };
   return {{f.v, {f.d[0], f.d[1], f.d[2]}}, {component(0), component(1), component(2)}};
@@ -234,8 +165,8 @@ FieldState evaluate_primitive(const Primitive& primitive, const dvec3& p) {
 
 FieldState combine(const OperatorUse& use, const std::vector<FieldState>& operands) {
   const operators::Operator& op = *use.op;
-  const Form form = op.applied_form();
-  if (op.is_n_ary()) {
+  const Form form = op.form;
+  if (op.is_joint()) {
     std::vector<FieldState> x = operands;
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (form == Form::kIntersection || (form == Form::kDifference && i == 0)) x[i] = complement(use, x[i]);
@@ -256,7 +187,7 @@ FieldState combine(const OperatorUse& use, const std::vector<FieldState>& operan
         r = {};
         continue;
       }
-      if (op.kind == Kind::kDifference) {  // max(0, min(f1, 1 - f2))
+      if (op.as<operators::Difference>()) {  // max(0, min(f1, 1 - f2))
         r = clamped(use, minimum(r, complement(use, b)));
         continue;
       }

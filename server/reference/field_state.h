@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "blobtree/geometry/affine.h"
-#include "blobtree/primitives/distance.h"
+#include "blobtree/primitives/primitive.h"
 #include "operators/operator.h"
 #include "reference/dual.h"
 
@@ -36,8 +36,7 @@ struct OperatorUse {
 
 // A primitive at the point q = to_local (p - anchor) of the shape's own frame, where p is a point of the world.
 struct Primitive {
-  blobtree::Shape shape = blobtree::Shape::kSphere;
-  blobtree::ShapeSize size{};
+  blobtree::Shape shape;
   double range = 0;  // positive
   operators::Law law = operators::Law::kPositive;
   blobtree::Affine to_local;  // linear part only

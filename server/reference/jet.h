@@ -1,11 +1,9 @@
 // A number with its first and second derivatives with respect to the three coordinates of a point: forward automatic
-// differentiation of second order. What shape_distance and soften are evaluated with.
+// differentiation of second order. What distances of primitives and their falloff are evaluated with.
 #pragma once
 
 #include <array>
 #include <cmath>
-
-#include "blobtree/geometry/vec3.h"
 
 namespace isofield::reference {
 
@@ -34,6 +32,10 @@ struct Jet {
   friend Jet operator-(const Jet& a, const Jet& b) { return chain(a, b, a.v - b.v, 1, -1, 0, 0, 0); }
   friend Jet operator*(const Jet& a, const Jet& b) { return chain(a, b, a.v * b.v, b.v, a.v, 0, 1, 0); }
 };
+
+inline double value_of(const Jet& a) {
+  return a.v;
+}
 
 // The derivatives at 0, which do not exist, are 0; so close to 0 that the third power of the root would vanish, too.
 inline Jet sqrt(const Jet& a) {

@@ -9,9 +9,9 @@
 #include "engine/engine.h"
 #include "isofield/v1/field_service.pb.h"
 #include "rpc/limits.h"
-#include "scenes/scene_source.h"
 #include "rpc/shared_regions.h"
 #include "rpc/tensor.h"
+#include "scenes/scene_source.h"
 
 namespace isofield::rpc {
 

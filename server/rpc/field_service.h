@@ -9,8 +9,8 @@
 #include "rpc/call_log.h"
 #include "rpc/evaluate_arguments.h"
 #include "rpc/limits.h"
-#include "scenes/scene_source.h"
 #include "rpc/shared_regions.h"
+#include "scenes/scene_source.h"
 
 namespace isofield::rpc {
 

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <string>
 
+#include "base/limits.h"
 #include "blobtree/tape/extent.h"
 
 namespace isofield::rpc {
 namespace {
 
 bool is_coordinate(double x) {
-  return std::abs(x) <= blobtree::kMaxCoordinate;
+  return std::abs(x) <= base::kMaxCoordinate;
 }
 
 }  // namespace
@@ -22,7 +23,7 @@ absl::StatusOr<blobtree::dvec3> read_vector(const char* name, const Numbers& v) 
   for (int i = 0; i < 3; ++i) {
     if (!is_coordinate(v[i])) {
       return absl::InvalidArgumentError(absl::StrCat(
-          name, "[", i, "] = ", v[i], ": expected a finite number of magnitude at most ", blobtree::kMaxCoordinate));
+          name, "[", i, "] = ", v[i], ": expected a finite number of magnitude at most ", base::kMaxCoordinate));
     }
   }
   return blobtree::dvec3{v[0], v[1], v[2]};
@@ -36,7 +37,7 @@ void set_vector(const blobtree::dvec3& v, Numbers& out) {
 absl::StatusOr<double> read_length(const char* name, double length) {
   if (!(length > 0 && is_coordinate(length))) {
     return absl::InvalidArgumentError(
-        absl::StrCat(name, " = ", length, ": expected a length > 0, at most ", blobtree::kMaxCoordinate));
+        absl::StrCat(name, " = ", length, ": expected a length > 0, at most ", base::kMaxCoordinate));
   }
   return length;
 }
@@ -51,7 +52,7 @@ absl::StatusOr<std::optional<blobtree::Box>> read_bounds(const Numbers& low, con
     if (!is_coordinate(low[i]) || !is_coordinate(high[i]) || !(low[i] < high[i])) {
       return absl::InvalidArgumentError(absl::StrCat("bounds along ", std::string(1, "xyz"[i]), " = [", low[i], ", ",
                                                      high[i], "]: expected finite numbers of magnitude at most ",
-                                                     blobtree::kMaxCoordinate, ", the first below the second"));
+                                                     base::kMaxCoordinate, ", the first below the second"));
     }
   }
   return blobtree::Box{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};

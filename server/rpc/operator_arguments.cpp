@@ -25,11 +25,10 @@ bool contains(const OperatorArguments::Columns& columns, const std::string& name
   return std::find(columns.begin(), columns.end(), name) != columns.end();
 }
 
-// As many as are stated: one for each operand, or one for all.
-void set_operands(int stated, ArgumentShape& shape) {
-  shape.least = stated > 1 ? stated : 1;
-  shape.most = stated > 1 ? stated : 16;
-  if (shape.by_angle) shape.least = shape.most = 2;
+// Whether the operator is the same of both laws.
+bool is_of_either_law(const operators::Operator& op) {
+  using operators::Law;
+  return op.takes_either_law() && op.opcode(Law::kPositive) == op.opcode(Law::kSigned);
 }
 
 std::string expected_columns(const ArgumentShape& shape) {
@@ -80,39 +79,17 @@ struct Range {
 
 }  // namespace
 
-ArgumentShape argument_shape(const v1::Operator& message) {
+ArgumentShape argument_shape(const operators::Operator& op) {
   ArgumentShape shape;
-  switch (message.kind_case()) {
-    case v1::Operator::kMax:
-    case v1::Operator::kMin:
-      shape.fields = Fields::kEither;
-      break;
-    case v1::Operator::kGradient:
-    case v1::Operator::kSampled:
-      shape.is_steered = true;
-      break;
-    case v1::Operator::kRUnion:
-    case v1::Operator::kPasko:
-    case v1::Operator::kFunctional:
-      shape.fields = Fields::kSigned;
-      break;
-    case v1::Operator::kBt2:
-      shape.fields = Fields::kSigned;
-      shape.by_angle = message.bt2().eliminate_bulge();
-      break;
-    case v1::Operator::kSuperelliptic:
-      shape.fields = Fields::kSigned;
-      shape.by_angle = message.superelliptic().by_angle();
-      set_operands(message.superelliptic().ranges_size(), shape);
-      break;
-    case v1::Operator::kBtk:
-      shape.fields = Fields::kSigned;
-      shape.by_angle = message.btk().eliminate_bulge();
-      set_operands(std::max({message.btk().ranges_size(), message.btk().powers_size(), message.btk().weights_size()}),
-                   shape);
-      break;
-    default:
-      break;
+  if (is_of_either_law(op)) shape.fields = Fields::kEither;
+  if (op.law() == operators::Law::kSigned) shape.fields = Fields::kSigned;
+  shape.is_steered = op.is_steered();
+  shape.by_angle = op.has_angular_ranges();
+  if (op.is_joint()) {
+    const operators::OperandCount count = op.operand_count();
+    // Of one operand it is that operand's own share.
+    shape.least = count.least == count.most ? static_cast<int>(count.least) : 1;
+    shape.most = static_cast<int>(count.most);
   }
   return shape;
 }

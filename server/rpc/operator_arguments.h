@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "engine/points/operator_evaluator.h"
-#include "isofield/v1/operator.pb.h"
 #include "isofield/v1/operator_service.pb.h"
 
 namespace isofield::rpc {
@@ -22,7 +21,7 @@ struct ArgumentShape {
   bool by_angle = false;    // takes alpha, and may take ratio
   int least = 2, most = 2;  // operands
 };
-ArgumentShape argument_shape(const v1::Operator& message);
+ArgumentShape argument_shape(const operators::Operator& op);
 
 // As OperatorSummary states them.
 std::vector<std::string> argument_names(const ArgumentShape& shape);

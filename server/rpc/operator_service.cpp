@@ -7,10 +7,10 @@
 #include "blobtree/scene/operator_reader.h"
 #include "catalog/built_in_operators.h"
 #include "rpc/answer_limit.h"
-#include "scenes/opening_pick.h"
 #include "rpc/operator_arguments.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"
+#include "scenes/opening_pick.h"
 
 namespace isofield::rpc {
 namespace {
@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t kMostDescription = 1024;
 
 void fill_summary(const std::string& name, std::uint64_t version, const v1::Operator& message,
-                  v1::OperatorSummary& summary) {
-  const ArgumentShape shape = argument_shape(message);
+                  const operators::Operator& op, v1::OperatorSummary& summary) {
+  const ArgumentShape shape = argument_shape(op);
   summary.set_name(name);
   summary.set_version(version);
   summary.set_kind(catalog::kind_name(message));
@@ -40,7 +40,7 @@ absl::Status check_answer(const v1::EvaluateOperatorRequest& request, std::uint6
 
 void fill_summary(const catalog::OperatorEntry& entry, const engine::VolumeCache& volumes,
                   v1::OperatorSummary& summary) {
-  fill_summary(entry.name, entry.version, *entry.message, summary);
+  fill_summary(entry.name, entry.version, *entry.message, *entry.op, summary);
   summary.set_device_bytes(volumes.resident_bytes(*entry.op));
 }
 
@@ -62,7 +62,7 @@ grpc::Status OperatorService::PutOperator(grpc::ServerContext*, const v1::PutOpe
 grpc::Status OperatorService::GetOperator(grpc::ServerContext*, const v1::GetOperatorRequest* request,
                                           v1::GetOperatorResponse* response) {
   if (std::optional<v1::Operator> built_in = catalog::built_in_operator(request->name())) {
-    fill_summary(request->name(), 0, *built_in, *response->mutable_summary());
+    fill_summary(request->name(), 0, *built_in, blobtree::unread_operator(*built_in), *response->mutable_summary());
     *response->mutable_operator_() = *std::move(built_in);
     return grpc::Status::OK;
   }
@@ -88,7 +88,8 @@ grpc::Status OperatorService::ListOperators(grpc::ServerContext*, const v1::List
   for (const std::string& name : catalog::built_in_names()) {
     if (!request->after().empty()) break;
     v1::OperatorSummary summary;
-    fill_summary(name, 0, *catalog::built_in_operator(name), summary);
+    const v1::Operator message = *catalog::built_in_operator(name);
+    fill_summary(name, 0, message, blobtree::unread_operator(message), summary);
     add(std::move(summary));  // these few have room
   }
   for (const catalog::OperatorEntry& entry : operators_.list(request->after())) {
@@ -124,7 +125,6 @@ absl::Status OperatorService::evaluate(const v1::EvaluateOperatorRequest& reques
                                        v1::EvaluateOperatorResponse& response) {
   if (request.operator_case() == v1::EvaluateOperatorRequest::kOpening) return evaluate_opening(request, response);
   std::shared_ptr<const operators::Operator> op;
-  ArgumentShape shape;
   std::optional<v1::Operator> built_in;
   if (request.operator_case() == v1::EvaluateOperatorRequest::kName) {
     built_in = catalog::built_in_operator(request.name());
@@ -132,17 +132,15 @@ absl::Status OperatorService::evaluate(const v1::EvaluateOperatorRequest& reques
   if (built_in || request.operator_case() == v1::EvaluateOperatorRequest::kInline) {
     const v1::Operator& message = built_in ? *built_in : request.inline_();
     ISOFIELD_ASSIGN_OR_RETURN(op, blobtree::read_operator(message));
-    shape = argument_shape(message);
   } else if (request.operator_case() == v1::EvaluateOperatorRequest::kName) {
     ISOFIELD_ASSIGN_OR_RETURN(catalog::OperatorEntry entry, operators_.get(request.name()));
     op = std::move(entry.op);
-    shape = argument_shape(*entry.message);
   } else {
     return absl::InvalidArgumentError("operator: expected a name, an inline operator, or an opening");
   }
   ISOFIELD_ASSIGN_OR_RETURN(
       const OperatorArguments arguments,
-      OperatorArguments::read(shape, request.columns(), request.arguments(), limits_.max_points_per_message));
+      OperatorArguments::read(argument_shape(*op), request.columns(), request.arguments(), limits_.max_points_per_message));
   const std::vector<std::string> columns = arguments.result_columns();
   response.mutable_columns()->Assign(columns.begin(), columns.end());
   ISOFIELD_RETURN_IF_ERROR(check_answer(request, arguments.rows(), columns.size()));

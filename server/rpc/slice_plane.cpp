@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/limits.h"
 #include "base/status_macros.h"
 #include "blobtree/scene/scene.h"
 #include "rpc/geometry_arguments.h"
@@ -21,9 +22,9 @@ constexpr double kDefaultCount = 512;
 absl::StatusOr<dvec3> read_axis(const char* name, const Numbers& numbers, const dvec3& otherwise) {
   if (numbers.empty()) return otherwise;
   ISOFIELD_ASSIGN_OR_RETURN(const dvec3 axis, read_vector(name, numbers));
-  if (!(length(axis) >= blobtree::kMinLength)) {
+  if (!(length(axis) >= base::kMinLength)) {
     return absl::InvalidArgumentError(absl::StrCat(name, " = (", axis.x, ", ", axis.y, ", ", axis.z,
-                                                   "): expected a length of at least ", blobtree::kMinLength));
+                                                   "): expected a length of at least ", base::kMinLength));
   }
   return axis;
 }
@@ -110,9 +111,9 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
   for (int i = 0; i < 2; ++i) {
     plane.counts[i] = static_cast<std::uint32_t>(counts[i]);
     plane.spacing[i] = spacing[i];
-    if (!(counts[i] * spacing[i] <= blobtree::kMaxCoordinate)) {
+    if (!(counts[i] * spacing[i] <= base::kMaxCoordinate)) {
       return absl::InvalidArgumentError(absl::StrCat(
-          "spacing = ", spacing[i], ": expected a plane of a length of at most ", blobtree::kMaxCoordinate));
+          "spacing = ", spacing[i], ": expected a plane of a length of at most ", base::kMaxCoordinate));
     }
   }
   if (!request.origin().empty()) {

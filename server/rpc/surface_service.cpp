@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/limits.h"
 #include "base/status_macros.h"
 #include "engine/surface/iso_level.h"
 #include "engine/surface/slicer.h"
@@ -48,10 +49,10 @@ absl::Status check_rays(const PointArray& origins, const PointArray& directions)
                                                    ", 3]: expected as many rows as origins has, ", origins.size()));
   }
   for (std::size_t i = 0; i < origins.xyz().size(); ++i) {
-    if (!(std::abs(origins.xyz()[i]) <= blobtree::kMaxCoordinate)) {
+    if (!(std::abs(origins.xyz()[i]) <= base::kMaxCoordinate)) {
       return absl::InvalidArgumentError(absl::StrCat("origins[", i / 3, "].", std::string(1, "xyz"[i % 3]), " = ",
                                                      origins.xyz()[i], ": expected a magnitude of at most ",
-                                                     blobtree::kMaxCoordinate));
+                                                     base::kMaxCoordinate));
     }
   }
   for (std::size_t i = 0; i < directions.size(); ++i) {

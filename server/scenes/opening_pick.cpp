@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/limits.h"
 #include "base/quoted.h"
 #include "base/status_macros.h"
 #include "blobtree/scene/node_reader.h"
@@ -33,68 +34,10 @@ std::optional<int> find_node(const v1::Scene& scene, const std::string& referenc
   return std::nullopt;
 }
 
-// Whether a node's field is a positive one; nothing: it is as its first child is.
-std::optional<bool> states_positive(const v1::Node& node, const blobtree::OperatorTable& operators) {
-  switch (node.kind_case()) {
-    case v1::Node::kSphere:
-      return node.sphere().law() != v1::SIGNED;
-    case v1::Node::kSegment:
-      return node.segment().law() != v1::SIGNED;
-    case v1::Node::kBox:
-      return node.box().law() != v1::SIGNED;
-    case v1::Node::kCylinder:
-      return node.cylinder().law() != v1::SIGNED;
-    case v1::Node::kTorus:
-      return node.torus().law() != v1::SIGNED;
-    case v1::Node::kEllipsoid:
-      return node.ellipsoid().law() != v1::SIGNED;
-    case v1::Node::kRUnion:
-    case v1::Node::kPasko:
-    case v1::Node::kSuperelliptic:
-    case v1::Node::kFunctional:
-    case v1::Node::kBt2:
-    case v1::Node::kBtk:
-    case v1::Node::kHarden:
-      return false;
-    case v1::Node::kMax:
-    case v1::Node::kMin:
-    case v1::Node::kDifference:
-    case v1::Node::kTransform:
-      return std::nullopt;
-    case v1::Node::kCustom:
-      switch (operators.at(node.custom().operator_())->kind) {
-        case operators::Kind::kMax:
-        case operators::Kind::kMin:
-        case operators::Kind::kDifference:
-          return std::nullopt;
-        case operators::Kind::kRUnion:
-        case operators::Kind::kPasko:
-        case operators::Kind::kSuperelliptic:
-        case operators::Kind::kFunctional:
-        case operators::Kind::kBt2:
-        case operators::Kind::kBtk:
-          return false;
-        default:
-          return true;
-      }
-    default:
-      return true;
-  }
-}
-
-// Of a scene that has been read: without cycles, every reference a node's.
-bool is_positive(const FoundScene& found, int index) {
-  while (true) {
-    const v1::Node& node = found.scene->nodes(index);
-    const std::optional<bool> stated = states_positive(node, *found.operators);
-    if (stated) return *stated;
-    index = *find_node(*found.scene, *blobtree::child_references(node).front());
-  }
-}
-
 struct Sample {
   double f = 0;
   std::array<double, 3> gradient{};
+  operators::Law law = operators::Law::kPositive;
 };
 
 // A node's field at a point of its own frame.
@@ -105,7 +48,7 @@ absl::StatusOr<Sample> sample(const FoundScene& found, const std::string& node, 
   ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease scene, engine.make_resident(rooted, *found.operators));
   std::array<float, 4> out{};
   ISOFIELD_RETURN_IF_ERROR(engine.fields().evaluate(*scene, point, engine::Quantity::kValueAndGradient, out));
-  return Sample{out[0], {out[1], out[2], out[3]}};
+  return Sample{out[0], {out[1], out[2], out[3]}, scene->tape().law};
 }
 
 // Radians; 0 where one of them vanishes.
@@ -123,10 +66,10 @@ absl::Status pick_opening(const FoundScene& found, const v1::PickOpeningRequest&
   }
   std::array<float, 3> point{};
   for (int i = 0; i < 3; ++i) {
-    if (!(std::abs(request.point(i)) <= blobtree::kMaxCoordinate)) {
+    if (!(std::abs(request.point(i)) <= base::kMaxCoordinate)) {
       return absl::InvalidArgumentError(absl::StrCat("point[", i, "] = ", request.point(i),
                                                      ": expected a finite number of magnitude at most ",
-                                                     blobtree::kMaxCoordinate));
+                                                     base::kMaxCoordinate));
     }
     point[i] = static_cast<float>(request.point(i));
   }
@@ -143,7 +86,8 @@ absl::Status pick_opening(const FoundScene& found, const v1::PickOpeningRequest&
   }
   ISOFIELD_ASSIGN_OR_RETURN(const Sample first, sample(found, *children[0], point, engine));
   ISOFIELD_ASSIGN_OR_RETURN(const Sample second, sample(found, *children[1], point, engine));
-  if (!is_positive(found, *index)) {
+  // An operator takes children of one law.
+  if (first.law == operators::Law::kSigned) {
     return absl::InvalidArgumentError(
         absl::StrCat("node = ", name, " joins signed fields: expected a positive operator of 2 children"));
   }

@@ -3,7 +3,7 @@
 #ifndef FIELD_GLSL
 #define FIELD_GLSL
 
-#include "opcodes.glsl"
+#include "codes.glsl"  // written at build time
 
 // Of the law of positive primitives: w(R0) = 0.5.
 const float R0 = 0.45420201894740647;

@@ -2,7 +2,12 @@
 #ifndef INSTRUCTION_GLSL
 #define INSTRUCTION_GLSL
 
-#include "operators.glsl"
+#include "forms.glsl"
+#include "operators.glsl"  // written at build time
+#include "steering.glsl"
+#ifdef CELL_SIZE
+#include "seams.glsl"
+#endif
 
 // Of the accumulator and a right operand. Operators of many and OPERATOR_PUSH give the latter.
 Field apply_operator(Field acc, Field v, uint op, uint mode, uint record) {
@@ -15,46 +20,27 @@ Field apply_operator(Field acc, Field v, uint op, uint mode, uint record) {
     a = select_field(first, complement(first, mode), (mode & 3u) != FORM_UNION);
     b = select_field(second, complement(second, mode), (mode & 3u) == FORM_INTERSECTION);
   }
-  Field d1 = in_frame(a, record), d2 = in_frame(b, record);
+  Field u = in_frame(a, record), v_in_frame = in_frame(b, record);
   if (op != OPERATOR_PUSH) {
     Angle angle = no_angle();
-    if (may_follow_angle()) angle = angle_between(d1, d2);
+    if (may_follow_angle()) angle = angle_between(u, v_in_frame);
     r = unite(a, b, op, record, angle);
 #ifdef CELL_SIZE
     if (makes_seams(op, record)) even_seam(r, a, b, part_turned(r, a, b), SHARP_SEAM);
 #endif
   }
-  IF_OPERATOR(op, OPERATOR_GRADIENT) {
-    r = blend_by_gradient(a, b, d1, d2, operation_at(record), SMOOTH_SILHOUETTE, false);
-  }
-  IF_OPERATOR(op, OPERATOR_GRADIENT_TABLE) {
-    uint silhouette = silhouette_half(floatBitsToUint(operation_at(record).y), a.f, b.f);
-    r = blend_by_gradient(a, b, d1, d2, operation_at(record), silhouette, false);
-  }
-  IF_OPERATOR(op, OPERATOR_GRADIENT_VOLUME) {
-    r = blend_by_gradient(a, b, d1, d2, operation_at(record), floatBitsToUint(operation_at(record).y), true);
-  }
+  r = unite_steered(r, a, b, u, v_in_frame, op, record);
   if (has_modes()) r = formed(r, first, second, mode);
-  IF_OPERATOR(op, OPERATOR_LINEAR) r = linear(acc, operation_at(record).x, operation_at(record).y);
-  IF_OPERATOR(op, OPERATOR_SOFTEN) r = softened(acc, operation_at(record).x);
-  return r;
+  return convert(r, acc, op, record);
 }
 
-bool is_of_many(uint op) {
-  IF_OPERATOR(op, OPERATOR_BTK) return true;
-  IF_OPERATOR(op, OPERATOR_SUPERELLIPTIC) return true;
-  return false;
-}
-
-// Of operands as operators.glsl has them: x[0] is the last.
+// Of operands as many.glsl has them: x[0] is the last.
 Field apply_to_many(Field x[MAX_OPERANDS], uint op, uint mask, uint mode, uint record) {
   uint form = mode & 3u;
   if (has_modes() && form != FORM_UNION) turn_operands(x, mask, form);
   Angle angle = no_angle();
   if (may_follow_angle()) angle = angle_between(in_frame(x[0], record), in_frame(x[1], record));
-  Field r = x[0];
-  IF_OPERATOR(op, OPERATOR_BTK) r = blend_btk(x, mask, record, angle);
-  IF_OPERATOR(op, OPERATOR_SUPERELLIPTIC) r = blend_superelliptic(x, mask, record, angle);
+  Field r = unite_many(x, op, mask, record, angle);
 #ifdef CELL_SIZE
   // Ranges that follow an angle, of two operands, vanish where these are aligned.
   if (may_follow_angle() && operation_at(record).y >= 0.0) {

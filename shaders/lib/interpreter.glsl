@@ -4,7 +4,7 @@
 #define INTERPRETER_GLSL
 
 #include "instruction.glsl"
-#include "leaves.glsl"
+#include "leaves.glsl"  // written at build time
 
 #define SHIFT_DOWN(n, above) if (STACK_DEPTH > n) s##n = above
 #define FOR_EACH_REGISTER_UP                                                                                 \
@@ -32,7 +32,7 @@ Field evaluate(vec3 point, uint begin, uint count) {
     uint operand = i.x & 0xffu, op = has_modes() ? i.x >> 8u & 0xffu : i.x >> 8u;
     uint mode = has_modes() ? i.x >> 16u : 0u;
     Field v = leaf_field(p, operand, i.y);
-    if (STACK_DEPTH > 0u && is_operand(operand, OPERAND_POP)) {
+    if (STACK_DEPTH > 0u && HAS_OPERAND_POP && is_code(ONLY_OPERAND, operand, OPERAND_POP)) {
       v = acc;
       acc = s0u;
       FOR_EACH_REGISTER_DOWN;

@@ -4,7 +4,7 @@
 
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-#include "opcodes.glsl"
+#include "codes.glsl"  // written at build time
 
 layout(std430, binding = 0) readonly buffer Leaves { vec4 leaves[]; };
 layout(std430, binding = 1) readonly buffer Operations { vec4 operations[]; };

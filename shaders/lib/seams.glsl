@@ -15,7 +15,7 @@
 // The turns up to which sides are shaded as one surface, as squares of chords: of sharp unions 25 degrees, from where
 // client/cli/mesh_files cuts creases open; of blends that are narrow for the cells alone 40, from where camel's are wide.
 const float SHARP_SEAM = 0.18738443, NARROW_SEAM = 0.46791111;
-// The tangent from which an opening makes a sharp union: kSharp of server/engine/mesh/mesh_creases.cpp.
+// The tangent from which an opening makes a sharp union: kSharp of server/operators/steered.cpp.
 const float SHARP_OPENING = 0.9656888;
 
 // Makes the gradient of r, an operator's result, turn evenly from that of a to that of b where they meet at a turn below

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "blobtree/primitives/falloff.h"
 #include "engine/engine.h"
 #include "engine/mesh/mesh_tracker.h"
 #include "isofield/import.h"

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "blobtree/primitives/distance.h"
+#include "blobtree/primitives/falloff.h"
 #include "isofield/v1/field_service.grpc.pb.h"
 #include "isofield/v1/info_service.grpc.pb.h"
 #include "isofield/v1/mesh_service.grpc.pb.h"

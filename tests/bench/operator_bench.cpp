@@ -32,11 +32,7 @@ Devices& devices() {
 }
 
 operators::Operator gradient(int size, const Silhouette& silhouette) {
-  operators::Operator op;
-  op.kind = operators::Kind::kGradient;
-  op.volume = size;
-  op.silhouette = silhouette;
-  return op;
+  return operators::Gradient{.silhouette = silhouette, .volume = size};
 }
 
 // From parameters to resident, with partials.

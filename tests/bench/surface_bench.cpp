@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "blobtree/primitives/falloff.h"
 #include "engine/engine.h"
 #include "engine/mesh/cell_size.h"
 #include "isofield/import.h"

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "blobtree/primitives/distance.h"
+#include "blobtree/primitives/falloff.h"
 #include "isofield/v1/field_service.grpc.pb.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"

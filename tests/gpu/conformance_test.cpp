@@ -30,9 +30,9 @@ using reference::FieldState;
 
 TEST(Conformance, EveryOperatorIsTheSameOnTheDevice) {
   for (const Case& c : cases()) {
-    if (c.op.by_angle) continue;
+    if (c.op.has_angular_ranges()) continue;
     SCOPED_TRACE(c.name);
-    const bool is_signed = operators::law_of(c.op.kind) == Law::kSigned;
+    const bool is_signed = c.op.law() == Law::kSigned;
     test_support::Random random(17);
     std::vector<float> rows;
     constexpr int kRows = 4000;
@@ -72,20 +72,14 @@ TEST(Conformance, EveryOperatorIsTheSameOnTheDevice) {
 TEST(Conformance, PowersKeepTheirDigitsAtTheGreatestExponents) {
   std::vector<Case> all;
   for (const double t : {1.0001, 7.3, 31.0, 64.0}) {
-    Operator op = of_kind(Kind::kRicci);
-    op.exponent = t;
-    all.push_back({"ricci " + std::to_string(t), op});
-    op = of_kind(Kind::kSuperelliptic);
-    op.exponent = t;
-    op.terms = {{0.75, 2, 1}, {1.25, 2, 1}};  // as float32 has them
-    all.push_back({"superelliptic " + std::to_string(t), op});
-    op = of_kind(Kind::kBtk);
-    op.terms = {{1, t, 1}, {0.7, t, 0.4}, {1.3, 2, 2}};
-    all.push_back({"btk " + std::to_string(t), op, 3});
+    all.push_back({"ricci " + std::to_string(t), operators::Ricci{t}});
+    // The ranges are as float32 has them.
+    all.push_back({"superelliptic " + std::to_string(t), operators::Superelliptic{t, {{0.75, 2, 1}, {1.25, 2, 1}}, {}}});
+    all.push_back({"btk " + std::to_string(t), operators::Btk{{{1, t, 1}, {0.7, t, 0.4}, {1.3, 2, 2}}, {}}, 3});
   }
   for (const Case& c : all) {
     SCOPED_TRACE(c.name);
-    const bool is_signed = operators::law_of(c.op.kind) == Law::kSigned;
+    const bool is_signed = c.op.law() == Law::kSigned;
     test_support::Random random(19);
     std::vector<float> rows;
     constexpr int kRows = 10'000;
@@ -113,7 +107,7 @@ TEST(Conformance, PowersKeepTheirDigitsAtTheGreatestExponents) {
 // Operators that follow an angle: two fields in space whose gradients have the angle and the ratio of the row.
 TEST(Conformance, OperatorsThatFollowAnAngleAreTheSameOnTheDevice) {
   for (const Case& c : cases()) {
-    if (!c.op.by_angle) continue;
+    if (!c.op.has_angular_ranges()) continue;
     SCOPED_TRACE(c.name);
     test_support::Random random(23);
     std::vector<float> rows;
@@ -139,7 +133,7 @@ TEST(Conformance, OperatorsThatFollowAnAngleAreTheSameOnTheDevice) {
 
 TEST(Conformance, PartialsByTheAngleAreDifferencesOfValues) {
   for (const Case& c : cases()) {
-    if (!c.op.by_angle) continue;
+    if (!c.op.has_angular_ranges()) continue;
     SCOPED_TRACE(c.name);
     test_support::Random random(29);
     std::vector<float> rows;
@@ -198,16 +192,16 @@ TEST(Conformance, PartialsAreDifferencesOfExactValues) {
   double worst = 0, worst_device = 0;
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
-    const bool is_signed = operators::law_of(c.op.kind) == Law::kSigned;
+    const bool is_signed = c.op.law() == Law::kSigned;
     test_support::Random random(31);
     std::vector<float> rows;
     constexpr int kRows = 500;
-    const std::size_t columns = c.operands + (c.op.by_angle ? 2 : 0), partials = c.operands + (c.op.by_angle ? 1 : 0);
+    const std::size_t columns = c.operands + (c.op.has_angular_ranges() ? 2 : 0), partials = c.operands + (c.op.has_angular_ranges() ? 1 : 0);
     for (int i = 0; i < kRows; ++i) {
       for (std::size_t k = 0; k < c.operands; ++k) {
         rows.push_back(static_cast<float>(is_signed ? random.number(-1.5, 1.5) : random.number(0.01, 1.5)));
       }
-      if (!c.op.by_angle) continue;
+      if (!c.op.has_angular_ranges()) continue;
       rows.push_back(static_cast<float>(random.number(0.01, std::numbers::pi - 0.01)));
       rows.push_back(static_cast<float>(random.number(0.3, 3)));
     }
@@ -217,12 +211,12 @@ TEST(Conformance, PartialsAreDifferencesOfExactValues) {
       const auto at = rows.begin() + static_cast<std::ptrdiff_t>(i * columns);
       const std::vector<double> x(at, at + static_cast<std::ptrdiff_t>(columns));
       const auto state = [&](const std::vector<double>& x) {
-        return c.op.by_angle ? exact_at(c.op, x[0], x[1], x[2], x[3]) : exact(c.op, x);
+        return c.op.has_angular_ranges() ? exact_at(c.op, x[0], x[1], x[2], x[3]) : exact(c.op, x);
       };
       const FieldState e = state(x);
       const double d[] = {e.field.d.x, e.field.d.y, e.field.d.z};
       // Ranges of a hundredth, as aligned surfaces have, are within the step of a difference.
-      const bool is_even = c.op.by_angle || is_smooth(c.op, x, e);
+      const bool is_even = c.op.has_angular_ranges() || is_smooth(c.op, x, e);
       differences.compare(x, {d, d + partials}, is_even ? &device[i * (1 + partials) + 1] : nullptr,
                           [&](std::size_t k, double moved) {
                             std::vector<double> y = x;
@@ -250,8 +244,7 @@ TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
     ISOFIELD_NEEDS_SHARED(std::string("golden/") + file);
     const auto table = test_support::read_csv(test_support::shared_file(std::string("golden/") + file));
     ASSERT_TRUE(table.ok()) << table.status();
-    Operator op = of_kind(Kind::kGradient);
-    op.silhouette = silhouette;
+    const Operator op = operators::Gradient{.silhouette = silhouette};
     std::vector<float> rows;
     for (const auto& row : table->rows) {
       for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(row[k]));
@@ -279,8 +272,8 @@ TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
 
 // The rows lie where one piece of the curve ends and the next begins, before the first and beyond the last.
 TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
-  Operator op = of_kind(Kind::kFunctional);
-  op.curve = operators::SampledCurve({0.125, 0.25, 0.2500001, 0.5, 1}, {0.5, 0.4, 0.3999999, 0.2, 0.0625});
+  const Operator op =
+      operators::Functional{operators::SampledCurve({0.125, 0.25, 0.2500001, 0.5, 1}, {0.5, 0.4, 0.3999999, 0.2, 0.0625})};
   std::vector<float> rows;
   for (const float x : {0.0f, 0.125f, 0.25f, 0.2500001f, 0.5f, 1.0f, 2.0f}) {
     for (const float at : {std::nextafter(x, -1.0f), x, std::nextafter(x, 3.0f)}) {
@@ -303,26 +296,24 @@ TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
 std::vector<Case> positive_intersections() {
   std::vector<Case> all;
   for (const Case& c : cases()) {
-    if (operators::law_of(c.op.kind) == Law::kPositive && c.op.form == operators::Form::kIntersection) all.push_back(c);
+    if (c.op.law() == Law::kPositive && c.op.form == operators::Form::kIntersection) all.push_back(c);
   }
-  using operators::Silhouette;
-  Operator op = of_kind(Kind::kGradient);
-  op.form = operators::Form::kIntersection;
-  all.push_back({"gradient", op});
-  op.volume = 32;
-  all.push_back({"gradient of a volume", op, 2, 2e-2});
-  op.volume = 0;
-  op.silhouette = {Silhouette::Kind::kBulge, 0.6};
-  all.push_back({"bulge", op});
-  op.silhouette = {Silhouette::Kind::kSampled, 0,
-                   operators::SampledCurve::even(0, std::numbers::pi / 2, {1, 1.05, 1.2, 1.02, 1})};
-  all.push_back({"sampled silhouette", op, 2, 1e-4});
-  op.kind = Kind::kSampled;
+  using operators::Gradient, operators::Silhouette;
+  const auto add = [&](const char* name, Operator op, double tolerance = 3e-6) {
+    op.form = operators::Form::kIntersection;
+    all.push_back({name, std::move(op), 2, tolerance});
+  };
+  add("gradient", Gradient{});
+  add("gradient of a volume", Gradient{.volume = 32}, 2e-2);
+  add("bulge", Gradient{.silhouette = {Silhouette::Kind::kBulge, 0.6}});
+  add("sampled silhouette",
+      Gradient{.silhouette = {Silhouette::Kind::kSampled, 0,
+                              operators::SampledCurve::even(0, std::numbers::pi / 2, {1, 1.05, 1.2, 1.02, 1})}},
+      1e-4);
   auto samples = std::make_shared<operators::SampledVolume>();
   samples->size = 5;
   for (int i = 0; i < 125; ++i) samples->values.push_back(std::hypot(i % 5 / 4.0f, i / 5 % 5 / 4.0f));
-  op.samples = samples;
-  all.push_back({"sampled", op});
+  add("sampled", operators::Sampled{.samples = samples});
   return all;
 }
 
@@ -458,9 +449,7 @@ void expect_golden(const std::string& file, std::size_t operands,
 TEST(Conformance, ConicsOfAnyTightnessAreTheSameOnTheDevice) {
   test_support::Random random(19);
   for (const double below : {1e-9, 1e-4, 1.0, 11.0, 1e3, 1e5, 1e8, 1e11, 1e14}) {  // 1 - p / (r1 r2)
-    Operator op = of_kind(Kind::kBt2);
-    op.terms = {{1, 2, 1}, {1.5, 2, 1}};
-    op.conic = 1.5 * (1 - below);
+    const Operator op = operators::Bt2{{operators::Term{1, 2, 1}, operators::Term{1.5, 2, 1}}, 1.5 * (1 - below), {}};
     std::vector<float> rows;
     for (int i = 0; i < 3000; ++i) {
       const double x1 = random.number(-1.5, 1.5), x2 = random.number(-1.5, 1.5);
@@ -487,18 +476,13 @@ TEST(Conformance, ConicsOfAnyTightnessAreTheSameOnTheDevice) {
 
 TEST(Conformance, ReproducesGoldenBt2) {
   expect_golden("hsu_bt2.csv", 2, [](const std::vector<double>& p) {  // r1, r2, p, m1, m2
-    Operator op = of_kind(Kind::kBt2);
-    op.terms = {{p[0], 2, p[3]}, {p[1], 2, p[4]}};
-    op.conic = p[2];
-    return op;
+    return operators::Bt2{{operators::Term{p[0], 2, p[3]}, operators::Term{p[1], 2, p[4]}}, p[2], {}};
   });
 }
 
 TEST(Conformance, ReproducesGoldenBtk) {
   expect_golden("hsu_btk.csv", 3, [](const std::vector<double>&) {
-    Operator op = of_kind(Kind::kBtk);
-    op.terms = {{1, 2, 1}, {0.7, 3, 0.5}, {1.3, 2.5, 2}};  // what the file was made with
-    return op;
+    return operators::Btk{{{1, 2, 1}, {0.7, 3, 0.5}, {1.3, 2.5, 2}}, {}};  // what the file was made with
   });
 }
 

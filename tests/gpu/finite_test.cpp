@@ -31,38 +31,21 @@ constexpr float kMost = std::numeric_limits<float>::max();
 // With the gradient blend's own representations.
 std::vector<Case> all_cases() {
   std::vector<Case> all = cases();
-  using operators::Silhouette;
+  using namespace operators;
   for (const Form form : {Form::kUnion, Form::kIntersection, Form::kDifference}) {
-    Operator op = of_kind(Kind::kGradient);
-    op.form = form;
-    all.push_back({"gradient", op});
-    op.silhouette = {Silhouette::Kind::kBulge, 0.8};
-    all.push_back({"bulge", op});
+    all.push_back({"gradient", Operator(Gradient{}, form)});
+    all.push_back({"bulge", Operator(Gradient{.silhouette = {Silhouette::Kind::kBulge, 0.8}}, form)});
   }
-  Operator op = of_kind(Kind::kGradient);
-  op.volume = 16;
-  all.push_back({"volume", op});
-  op = of_kind(Kind::kBt2);
+  all.push_back({"volume", Gradient{.volume = 16}});
   for (const double tightness : {1e-9, 1e14}) {
-    op.terms = {{1e-3, 2, 1e-3}, {1e3, 2, 1e3}};
-    op.conic = 1 - tightness;
-    all.push_back({absl::StrCat("bt2 of tightness ", tightness), op});
+    all.push_back({absl::StrCat("bt2 of tightness ", tightness),
+                   Bt2{{Term{1e-3, 2, 1e-3}, Term{1e3, 2, 1e3}}, 1 - tightness, {}}});
   }
-  op = of_kind(Kind::kSuperelliptic);
-  op.exponent = 64;
-  op.terms = {{1e-9, 2, 1}, {1e9, 2, 1}};
-  all.push_back({"superelliptic, extreme", op});
-  op.by_angle = true;
-  op.omega = 0.001;
-  all.push_back({"superelliptic by angle, extreme", op});
-  op = of_kind(Kind::kBtk);
-  op.terms = {{1e-9, 64, 1e-3}, {1e9, 1.0001, 1e3}};
-  all.push_back({"btk, extreme", op});
-  op = of_kind(Kind::kPasko);
-  op.a0 = -1e9;
-  op.a1 = 1e-9;
-  op.a2 = 1e9;
-  all.push_back({"pasko, extreme", op});
+  const std::vector<Term> far_apart{{1e-9, 2, 1}, {1e9, 2, 1}};
+  all.push_back({"superelliptic, extreme", Superelliptic{64, far_apart, {}}});
+  all.push_back({"superelliptic by angle, extreme", Superelliptic{64, far_apart, {.is_on = true, .omega = 0.001}}});
+  all.push_back({"btk, extreme", Btk{{{1e-9, 64, 1e-3}, {1e9, 1.0001, 1e3}}, {}}});
+  all.push_back({"pasko, extreme", Pasko{-1e9, 1e-9, 1e9}});
   return all;
 }
 
@@ -72,7 +55,7 @@ TEST(Finite, OperatorsAreAtTheEndsOfFloat32) {
   std::size_t rows_in_all = 0;
   for (const Case& c : all_cases()) {
     std::vector<float> values = fields;
-    if (operators::law_of(c.op.kind) == Law::kSigned) {
+    if (c.op.law() == Law::kSigned) {
       for (const float f : fields) values.push_back(-f);
     }
     std::vector<float> rows;
@@ -81,7 +64,7 @@ TEST(Finite, OperatorsAreAtTheEndsOfFloat32) {
         for (int variant = 0; variant < 3; ++variant) {
           if (c.operands == 3) {
             rows.insert(rows.end(), {x1, x2, variant == 0 ? x1 : variant == 1 ? 0.0f : -x2});
-          } else if (c.op.by_angle) {
+          } else if (c.op.has_angular_ranges()) {
             const float ratios[] = {1e-38f, 1.0f, kMost};
             rows.insert(rows.end(), {x1, x2, variant * 1.5707963f, ratios[variant]});
           } else if (c.op.is_steered()) {
@@ -93,7 +76,7 @@ TEST(Finite, OperatorsAreAtTheEndsOfFloat32) {
       }
     }
     const std::vector<float> results = on_device(c, rows);
-    const std::size_t columns = c.operands + (c.op.by_angle ? 2 : c.op.is_steered() ? 1 : 0);
+    const std::size_t columns = c.operands + (c.op.has_angular_ranges() ? 2 : c.op.is_steered() ? 1 : 0);
     const std::size_t width = results.size() / (rows.size() / columns);
     rows_in_all += rows.size() / columns;
     int bad = 0;
@@ -163,29 +146,42 @@ class ExtremeScene {
 
   // The parameters of an operator at the ends of their ranges; its opcodes stay.
   void make_extreme(Operator& op) {
-    constexpr double kExponents[] = {1, 1.5, 2, 8, 64};
-    constexpr double kWeights[] = {1e-3, 0.5, 1, 1, 1e3};
-    constexpr double kOmegas[] = {0.001, 0.01, 1};
-    for (operators::Term& t : op.terms) {
-      t = {length(), std::max(of(kExponents), 1.0001), op.kind == Kind::kSuperelliptic ? 1 : of(kWeights)};
+    const bool has_weights = op.kind() != Kind::kSuperelliptic;
+    for (operators::Term& t : terms_of(op)) {
+      t = {length(), std::max(of(kExponents), 1.0001), has_weights ? of(kWeights) : 1};
     }
-    if (op.kind == Kind::kRicci || op.kind == Kind::kSuperelliptic) op.exponent = of(kExponents);
-    op.omega = of(kOmegas);
-    if (op.kind == Kind::kBt2) {
-      constexpr double kTightness[] = {1e-9, 0.1, 1, 100, 1e14};
-      op.conic = (1 - of(kTightness)) * op.term(0).range * op.term(1).range;
-    }
-    if (op.kind == Kind::kPasko) {
-      op.a0 = random_.chance(0.5) ? length() : -length();
-      op.a1 = length();
-      op.a2 = length();
-    }
-    if (op.kind == Kind::kFunctional) {
-      const double x = random_.chance(0.3) ? 0 : length(), width = length();
-      op.curve = operators::SampledCurve({x, x + width, x + 3 * width}, {length(), -length(), 0});
-    }
+    std::visit([&](auto& kind) { make_extreme(kind); }, op.parameters);
   }
 
+ private:
+  void make_extreme(operators::Ricci& op) { op.exponent = of(kExponents); }
+  void make_extreme(operators::Superelliptic& op) {
+    op.exponent = of(kExponents);
+    op.elimination.omega = of(kOmegas);
+  }
+  void make_extreme(operators::Bt2& op) {
+    op.elimination.omega = of(kOmegas);
+    constexpr double kTightness[] = {1e-9, 0.1, 1, 100, 1e14};
+    op.conic = (1 - of(kTightness)) * op.term(0).range * op.term(1).range;
+  }
+  void make_extreme(operators::Btk& op) { op.elimination.omega = of(kOmegas); }
+  void make_extreme(operators::Pasko& op) {
+    op.a0 = random_.chance(0.5) ? length() : -length();
+    op.a1 = length();
+    op.a2 = length();
+  }
+  void make_extreme(operators::Functional& op) {
+    const double x = random_.chance(0.3) ? 0 : length(), width = length();
+    op.h = operators::SampledCurve({x, x + width, x + 3 * width}, {length(), -length(), 0});
+  }
+  template <class Kind>
+  void make_extreme(Kind&) {}
+
+  static constexpr double kExponents[] = {1, 1.5, 2, 8, 64};
+  static constexpr double kWeights[] = {1e-3, 0.5, 1, 1, 1e3};
+  static constexpr double kOmegas[] = {0.001, 0.01, 1};
+
+ public:
   template <std::size_t N>
   double of(const double (&values)[N]) {
     return values[random_.integer(0, static_cast<int>(N) - 1)];
@@ -203,18 +199,19 @@ struct Shapes {
 
 std::string gradient_node(const Operator& op, const std::string& children, ExtremeScene& extreme) {
   constexpr const char* kOpenings[] = {"CAMEL", "ORGANIC", "CONTACT"};
-  const bool is_bulge = op.silhouette.kind == operators::Silhouette::Kind::kBulge;
+  const auto& gradient = *op.as<operators::Gradient>();
+  const bool is_bulge = gradient.silhouette.kind == operators::Silhouette::Kind::kBulge;
   const char* form = op.form == Form::kUnion ? "UNION" : op.form == Form::kIntersection ? "INTERSECTION" : "DIFFERENCE";
   return absl::StrCat(R"("gradient": {"children": [)", children, R"(], "opening": {"preset": ")",
                       kOpenings[extreme.random().integer(0, 2)], R"("}, "silhouette": )",
                       is_bulge ? absl::StrCat(R"({"kind": "BULGE", "k": )", extreme.random().number(0, 1), "}") : "{}",
-                      R"(, "form": ")", form, R"(", "volume": )", op.volume, "}}");
+                      R"(, "form": ")", form, R"(", "volume": )", gradient.volume, "}}");
 }
 
 // A scene of the operator over three leaves (two where it takes no more), converted where it is signed and folded with
 // itself, so that what one yields meets another.
 std::string scene_text(Case c, const Shapes& shapes, ExtremeScene& extreme) {
-  const bool is_signed = operators::law_of(c.op.kind) == Law::kSigned;
+  const bool is_signed = c.op.law() == Law::kSigned;
   extreme.make_extreme(c.op);
   std::vector<std::string> nodes, names;
   for (int i = 0; i < 3; ++i) {
@@ -227,7 +224,7 @@ std::string scene_text(Case c, const Shapes& shapes, ExtremeScene& extreme) {
     names.push_back(name);
   }
   const auto node = [&](const std::vector<std::string>& children, const std::string& name) {
-    if (c.op.kind != Kind::kGradient) return operator_node(c.op, children, name);
+    if (c.op.kind() != Kind::kGradient) return operator_node(c.op, children, name);
     return absl::StrCat(R"({"name": ")", name, R"(", )",
                         gradient_node(c.op, absl::StrCat("\"", absl::StrJoin(children, "\", \""), "\""), extreme));
   };
@@ -275,6 +272,10 @@ std::vector<float> extreme_points(const v1::Scene& scene, int count, Random& ran
   return points;
 }
 
+bool is_same_blend(const operators::Gradient* a, const operators::Gradient* b) {
+  return !a || !b || (a->silhouette.kind == b->silhouette.kind && a->volume == b->volume);
+}
+
 TEST(Finite, ScenesAreAtTheEndsOfTheirParametersAndPoints) {
   constexpr int kScenes = 16, kPoints = 1700;
   static engine::FieldEvaluator evaluator(device(), kernels(), workers());
@@ -283,11 +284,12 @@ TEST(Finite, ScenesAreAtTheEndsOfTheirParametersAndPoints) {
   for (Case& c : all_cases()) {
     // One of each kind, form and whether it follows an angle.
     const auto is_alike = [&](const Case& other) {
-      return other.op.kind == c.op.kind && other.op.form == c.op.form && other.op.by_angle == c.op.by_angle &&
-             other.op.silhouette.kind == c.op.silhouette.kind && other.op.volume == c.op.volume;
+      return other.op.kind() == c.op.kind() && other.op.form == c.op.form &&
+             other.op.has_angular_ranges() == c.op.has_angular_ranges() &&
+             is_same_blend(other.op.as<operators::Gradient>(), c.op.as<operators::Gradient>());
     };
     // An intersection of signed fields differs from the union in signs alone.
-    const bool is_turned = c.op.form == Form::kIntersection && operators::law_of(c.op.kind) == Law::kSigned;
+    const bool is_turned = c.op.form == Form::kIntersection && c.op.law() == Law::kSigned;
     if (!is_turned && std::none_of(all.begin(), all.end(), is_alike)) all.push_back(std::move(c));
   }
   for (std::size_t n = 0; n < all.size(); ++n) {

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <vector>
 
+#include "base/limits.h"
 #include "engine/mesh/cell_size.h"
 #include "engine/mesh/mesher.h"
 #include "engine/mesh/surface_cases.h"
@@ -101,7 +102,7 @@ TEST(Mesher, IsDeterministic) {
 
 std::optional<blobtree::Box> bounds_if_needed(const v1::Scene& scene) {
   const auto support = resident(scene)->tape().support;
-  if (support.empty() || support.max.x < blobtree::kMaxCoordinate) return std::nullopt;
+  if (support.empty() || support.max.x < base::kMaxCoordinate) return std::nullopt;
   return blobtree::Box{{-2, -2, -2}, {2, 2, 2}};
 }
 

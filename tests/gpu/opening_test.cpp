@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "blobtree/primitives/distance.h"
+#include "blobtree/primitives/falloff.h"
 #include "engine/points/operator_evaluator.h"
 #include "gpu/device_field.h"
 #include "operators/gradient_blend.h"
@@ -125,10 +125,8 @@ TEST(OpeningOnDevice, FollowsTheCubicsOfItsSamples) {
 
 // A difference steers by the gradient of the first operand turned round, at pi - alpha, which float32 must not round.
 TEST(OpeningOnDevice, ADifferenceIsExactAtItsAngle) {
-  operators::Operator op;
-  op.kind = operators::Kind::kGradient;
-  op.form = operators::Form::kDifference;
-  op.opening = {kPi - 2.5e-3, kPi - 1.5e-3, kPi, kPi / 4, 0, kPi / 4, 0.3, 1};
+  const operators::Opening opening{kPi - 2.5e-3, kPi - 1.5e-3, kPi, kPi / 4, 0, kPi / 4, 0.3, 1};
+  const operators::Operator op(operators::Gradient{.opening = opening}, operators::Form::kDifference);
   test_support::Random random(8);
   std::vector<float> rows;
   for (int i = 0; i < 2000; ++i) {
@@ -139,7 +137,7 @@ TEST(OpeningOnDevice, ADifferenceIsExactAtItsAngle) {
                   .evaluate(std::make_shared<const operators::Operator>(op), 2, engine::Steering::kAlpha, rows, results)
                   .ok());
   for (std::size_t i = 0; i < rows.size() / 3; ++i) {
-    const operators::Curve theta = op.opening.theta(kPi - rows[3 * i + 2]);
+    const operators::Curve theta = opening.theta(kPi - rows[3 * i + 2]);
     const operators::Blend u = operators::gradient_blend(1 - double{rows[3 * i]}, rows[3 * i + 1], theta.v, {});
     ASSERT_NEAR(results[4 * i], 1 - u.g, 2e-6) << rows[3 * i + 2];
     ASSERT_NEAR(results[4 * i + 3], u.gt * theta.d1, 1e-5 * std::max(1.0, std::abs(theta.d1))) << rows[3 * i + 2];

@@ -2,6 +2,7 @@
 // and in double precision, and as a node of a scene.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,12 @@ struct Case {
   double tolerance = 3e-6;
 };
 
+// With its parameters' defaults.
 operators::Operator of_kind(operators::Kind kind);
+
+// The terms of an operator with individual ranges; none of others.
+std::span<operators::Term> terms_of(operators::Operator& op);
+std::span<const operators::Term> terms_of(const operators::Operator& op);
 
 // All but the gradient blend, with all their forms.
 std::vector<Case> cases();

@@ -30,7 +30,7 @@ engine::OperatorEvaluator& evaluator() {
 // Rows of g and its partials at rows of arguments.
 std::vector<float> evaluate(const operators::Operator& op, std::size_t operands, Steering steering,
                             const std::vector<float>& arguments) {
-  const std::size_t columns = operands + (steering != Steering::kNone) + op.by_angle;
+  const std::size_t columns = operands + (steering != Steering::kNone) + op.has_angular_ranges();
   std::vector<float> results(arguments.size() / columns * (1 + operands + (steering != Steering::kNone)));
   const absl::Status status =
       evaluator().evaluate(std::make_shared<const operators::Operator>(op), operands, steering, arguments, results);
@@ -39,10 +39,7 @@ std::vector<float> evaluate(const operators::Operator& op, std::size_t operands,
 }
 
 operators::Operator gradient(const Silhouette& silhouette) {
-  operators::Operator op;
-  op.kind = operators::Kind::kGradient;
-  op.silhouette = silhouette;
-  return op;
+  return operators::Gradient{.silhouette = silhouette};
 }
 
 // g and its derivatives by f1, f2 and theta at (f1, f2, theta).

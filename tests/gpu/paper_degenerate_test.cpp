@@ -142,42 +142,26 @@ using operators::Operator;
 // Beside cases(): the ends of parameters' ranges.
 std::vector<Case> extreme_cases() {
   std::vector<Case> all = cases();
-  Operator op = of_kind(Kind::kBarthe);
-  op.theta1 = op.theta2 = std::numbers::pi / 4;
-  all.push_back({"barthe 45 degrees", op});
-  op.theta2 = 0;
-  all.push_back({"barthe 45 and 0 degrees", op});
-  op = of_kind(Kind::kBernhardt);
-  for (const double weight : {0.0, 1.0}) {
-    op.weight = weight;
-    all.push_back({"bernhardt " + std::to_string(weight), op});
-  }
-  op = of_kind(Kind::kPasko);
-  op.a0 = 2;
-  op.a1 = op.a2 = 1e-3;
-  all.push_back({"pasko narrow", op});
-  op = of_kind(Kind::kBt2);
-  op.terms = {{1e-3, 2, 1}, {1e3, 2, 1}};
-  op.conic = -9;
-  all.push_back({"bt2 of unlike ranges", op});
-  op.terms = {{1, 2, 1e-3}, {1, 2, 1e3}};
-  op.conic = 0.999;
-  all.push_back({"bt2 of unlike weights", op, 2, 1e-5});
-  op = of_kind(Kind::kBtk);
-  op.terms = {{1, 64, 1}, {1, 64, 1}};
-  all.push_back({"btk of powers 64", op, 2, 1e-5});
-  op.terms = {{1, 1.01, 1}, {1, 1.01, 1}};
-  all.push_back({"btk of powers 1.01", op, 2, 1e-5});
-  op.terms = {{1, 2, 1e-3}, {1, 2, 1e3}};
-  all.push_back({"btk of unlike weights", op, 2, 1e-5});
-  op.terms = {{1e-3, 2, 1}, {1e3, 2, 1}};
-  all.push_back({"btk of unlike ranges", op, 2, 1e-5});
+  using namespace operators;
+  all.push_back({"barthe 45 degrees", Barthe{std::numbers::pi / 4, std::numbers::pi / 4}});
+  all.push_back({"barthe 45 and 0 degrees", Barthe{std::numbers::pi / 4, 0}});
+  for (const double weight : {0.0, 1.0}) all.push_back({"bernhardt " + std::to_string(weight), Bernhardt{{}, weight}});
+  all.push_back({"pasko narrow", Pasko{2, 1e-3, 1e-3}});
+  all.push_back({"bt2 of unlike ranges", Bt2{{Term{1e-3, 2, 1}, Term{1e3, 2, 1}}, -9, {}}});
+  all.push_back({"bt2 of unlike weights", Bt2{{Term{1, 2, 1e-3}, Term{1, 2, 1e3}}, 0.999, {}}, 2, 1e-5});
+  const auto add_btk = [&](const char* name, std::vector<Term> terms) {
+    all.push_back({name, Btk{std::move(terms), {}}, 2, 1e-5});
+  };
+  add_btk("btk of powers 64", {{1, 64, 1}, {1, 64, 1}});
+  add_btk("btk of powers 1.01", {{1, 1.01, 1}, {1, 1.01, 1}});
+  add_btk("btk of unlike weights", {{1, 2, 1e-3}, {1, 2, 1e3}});
+  add_btk("btk of unlike ranges", {{1e-3, 2, 1}, {1e3, 2, 1}});
   return all;
 }
 
 double least_weight(const Operator& op) {
   double least = 1;
-  for (const operators::Term& t : op.terms) least = std::min(least, t.weight);
+  for (const operators::Term& t : terms_of(op)) least = std::min(least, t.weight);
   return least;
 }
 
@@ -208,10 +192,10 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesAtDegenerateFields) {
   for (const Case& c : extreme_cases()) {
     SCOPED_TRACE(c.name);
     std::vector<float> rows;
-    const std::vector<float> fields = degenerate_fields(operators::law_of(c.op.kind));
+    const std::vector<float> fields = degenerate_fields(c.op.law());
     for (const float x1 : fields) {
       for (const float x2 : fields) {
-        if (c.op.by_angle) {
+        if (c.op.has_angular_ranges()) {
           for (const float alpha : {0.0f, 1e-4f, 1.5707964f, 3.1415925f}) {
             for (const float ratio : {1e-6f, 1.0f, 8.0f, 1e6f}) rows.insert(rows.end(), {x1, x2, alpha, ratio});
           }
@@ -222,14 +206,14 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesAtDegenerateFields) {
         }
       }
     }
-    const std::size_t columns = c.operands + (c.op.by_angle ? 2 : 0), width = 1 + c.operands + (c.op.by_angle ? 1 : 0);
+    const std::size_t columns = c.operands + (c.op.has_angular_ranges() ? 2 : 0), width = 1 + c.operands + (c.op.has_angular_ranges() ? 1 : 0);
     const std::vector<float> results = on_device(c, rows);
     double worst = 0;
     for (std::size_t i = 0; i * columns < rows.size(); ++i) {
       const auto at = rows.begin() + static_cast<std::ptrdiff_t>(i * columns);
       const std::vector<double> x(at, at + static_cast<std::ptrdiff_t>(columns));
       const auto row = [&] { return "at " + absl::StrJoin(x, " "); };
-      const reference::FieldState e = c.op.by_angle ? exact_at(c.op, x[0], x[1], x[2], x[3]) : exact(c.op, x);
+      const reference::FieldState e = c.op.has_angular_ranges() ? exact_at(c.op, x[0], x[1], x[2], x[3]) : exact(c.op, x);
       ASSERT_TRUE(std::isfinite(e.field.v) && std::isfinite(length(e.field.d))) << row();
       for (const float r : std::span(&results[i * width], width)) ASSERT_TRUE(std::isfinite(r)) << row();
       double scale = std::max(1.0, std::abs(e.field.v));
@@ -257,8 +241,7 @@ TEST(PaperDegenerate, GradientBlendsAreFiniteAndTheReferencesAtDegenerateFields)
   using Bulge = Silhouette::Kind;
   for (const Silhouette& silhouette :
        {Silhouette{}, Silhouette{Bulge::kBulge, 0.0}, Silhouette{Bulge::kBulge, 0.8}, Silhouette{Bulge::kBulge, 1}}) {
-    Operator op = of_kind(Kind::kGradient);
-    op.silhouette = silhouette;
+    const Operator op = operators::Gradient{.silhouette = silhouette};
     const std::vector<float> results = on_device({"gradient", op}, rows);
     double worst = 0;
     for (std::size_t i = 0; 3 * i < rows.size(); ++i) {
@@ -301,7 +284,7 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesOnDegenerateShapes) {
   for (const Case& c : extreme_cases()) {
     if (c.operands != 2) continue;
     SCOPED_TRACE(c.name);
-    const char* law = operators::law_of(c.op.kind) == Law::kSigned ? R"("law": "SIGNED"}})" : R"("range": 0.6}})";
+    const char* law = c.op.law() == Law::kSigned ? R"("law": "SIGNED"}})" : R"("range": 0.6}})";
     for (const Balls& pair : pairs) {
       const std::string centre = absl::StrFormat("[%.17g, 0, 0]", pair.x);
       const std::string a = absl::StrCat(R"({"name": "a", "sphere": {"radius": 0.5, )", law),
@@ -328,7 +311,7 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesOnDegenerateShapes) {
         const double error = std::abs(device[i].value - s.value) / scale;
         ++compared;
         // An angle has no value at a centre, around which gradients point everywhere.
-        if (c.op.by_angle && length(p - dvec3{pair.x, 0, 0}) * length(p) < 1e-6) {
+        if (c.op.has_angular_ranges() && length(p - dvec3{pair.x, 0, 0}) * length(p) < 1e-6) {
           ++centres;
           continue;
         }

@@ -296,7 +296,7 @@ TEST(PaperGradient, IsTheDerivativeOfTheFieldForEveryOperator) {
   for (const Case& c : cases()) {
     std::vector<std::string> children{"a", "b", "c"};
     children.resize(c.operands);
-    const GradientErrors e = gradient_errors(overlapping(operators::law_of(c.op.kind)) + operator_node(c.op, children));
+    const GradientErrors e = gradient_errors(overlapping(c.op.law()) + operator_node(c.op, children));
     expect_gradients(c.name, e, 0.2);
     all.include(e);
   }
@@ -311,9 +311,9 @@ TEST(PaperGradient, IsTheDerivativeOfTheFieldForEveryOperatorNestedFourDeep) {
   std::set<std::tuple<operators::Kind, operators::Form, bool>> done;
   for (const Case& c : cases()) {
     // One set of parameters each.
-    if (c.operands != 2 || !done.insert({c.op.kind, c.op.form, c.op.by_angle}).second) continue;
+    if (c.operands != 2 || !done.insert({c.op.kind(), c.op.form, c.op.has_angular_ranges()}).second) continue;
     const GradientErrors e =
-        gradient_errors(overlapping(operators::law_of(c.op.kind)) + operator_node(c.op, {"a", "b"}, "one") + "," +
+        gradient_errors(overlapping(c.op.law()) + operator_node(c.op, {"a", "b"}, "one") + "," +
                         operator_node(c.op, {"one", "c"}, "two") + "," + operator_node(c.op, {"two", "d"}, "three") +
                         "," + operator_node(c.op, {"three", "e"}, "four"));
     expect_gradients("four " + c.name, e, 0.3);

@@ -36,20 +36,20 @@ constexpr Family kFamilies[] = {
 
 // Of random ranges, powers, conics and weights.
 Operator random_operator(const Family& family, Random& random) {
-  Operator op = of_kind(family.kind);
+  std::vector<operators::Term> terms;
   for (std::size_t i = 0; i < family.operands; ++i) {
-    op.terms.push_back(
-        {random.number(0.2, 2), random.number(1.2, 5), std::pow(10, random.number(-1, std::log10(4.0)))});
+    terms.push_back({random.number(0.2, 2), random.number(1.2, 5), std::pow(10, random.number(-1, std::log10(4.0)))});
   }
-  op.conic = random.number(-2, 0.95) * op.terms[0].range * op.term(1).range;
-  return op;
+  const double conic = random.number(-2, 0.95) * terms[0].range * terms[1].range;
+  if (family.kind == Kind::kBt2) return operators::Bt2{{terms[0], terms[1]}, conic, {}};
+  return operators::Btk{terms, {}};
 }
 
 // Within and around the ranges.
 std::vector<float> random_rows(const Operator& op, Random& random, int rows) {
   std::vector<float> x;
   for (int i = 0; i < rows; ++i) {
-    for (const operators::Term& t : op.terms) x.push_back(static_cast<float>(random.number(-1, 1.5) * t.range));
+    for (const operators::Term& t : terms_of(op)) x.push_back(static_cast<float>(random.number(-1, 1.5) * t.range));
   }
   return x;
 }
@@ -76,7 +76,7 @@ TEST(PaperRanges, WeightsDoNotMoveTheZeroSet) {
     for (int set = 0; set < kSets; ++set) {
       const Operator op = random_operator(family, random);
       Operator even = op;
-      for (operators::Term& t : even.terms) t.weight = 1;
+      for (operators::Term& t : terms_of(even)) t.weight = 1;
       std::vector<float> x = random_rows(op, random, kRows);
       const std::vector<float> levels = on_device({family.name, even, k}, x);
       for (std::size_t i = 0; i < kRows; i += 2) {
@@ -108,19 +108,20 @@ struct Least {
   bool is_blend = false;
 };
 Least least(const Operator& op, const float* x) {
-  const std::size_t k = op.terms.size();
+  const std::span<const operators::Term> terms = terms_of(op);
+  const std::size_t k = terms.size();
   std::size_t at = 0;
   for (std::size_t i = 1; i < k; ++i) {
-    if (x[i] / op.terms[i].weight < x[at] / op.terms[at].weight) at = i;
+    if (x[i] / terms[i].weight < x[at] / terms[at].weight) at = i;
   }
-  const double h = x[at] / op.terms[at].weight;
-  if (op.kind == Kind::kBt2) {
-    const double m1 = op.terms[0].weight, m2 = op.terms[1].weight;
-    return {h, m2 * x[0] - m1 * (x[1] - op.terms[1].range) > 0 && m2 * (x[0] - op.terms[0].range) - m1 * x[1] < 0};
+  const double h = x[at] / terms[at].weight;
+  if (op.kind() == Kind::kBt2) {
+    const double m1 = terms[0].weight, m2 = terms[1].weight;
+    return {h, m2 * x[0] - m1 * (x[1] - terms[1].range) > 0 && m2 * (x[0] - terms[0].range) - m1 * x[1] < 0};
   }
   bool is_blend = false;
   for (std::size_t i = 0; i < k; ++i) {
-    is_blend |= i != at && op.terms[i].range - x[i] + op.terms[i].weight * h > 0;
+    is_blend |= i != at && terms[i].range - x[i] + terms[i].weight * h > 0;
   }
   return {h, is_blend};
 }
@@ -173,7 +174,7 @@ TEST(PaperRanges, WithWeightsOfOneTheLeastFieldIsKeptToTheBit) {
     Random random(43);
     for (int set = 0; set < 5; ++set) {
       Operator op = random_operator(family, random);
-      for (operators::Term& t : op.terms) t.weight = 1;
+      for (operators::Term& t : terms_of(op)) t.weight = 1;
       const std::vector<float> x = random_rows(op, random, 10'000);
       const std::vector<float> results = on_device({family.name, op, family.operands}, x);
       for (std::size_t i = 0; i * family.operands < x.size(); ++i) {
@@ -195,7 +196,7 @@ TEST(PaperRanges, LevelsAreTheZeroSetMovedByTheWeights) {
       constexpr float kLevel = 0.25f;
       std::vector<float> moved = x;
       for (std::size_t i = 0; i < x.size(); ++i) {
-        moved[i] += static_cast<float>(op.terms[i % family.operands].weight) * kLevel;
+        moved[i] += static_cast<float>(terms_of(op)[i % family.operands].weight) * kLevel;
       }
       const std::vector<float> at_moved = on_device({family.name, op, family.operands}, moved);
       for (std::size_t i = 0; i < results.size(); i += 1 + family.operands) {

@@ -29,11 +29,7 @@ using operators::Silhouette;
 constexpr double kQuarterPi = std::numbers::pi / 4;
 
 operators::Operator gradient(int size, const Silhouette& silhouette = {}) {
-  operators::Operator op;
-  op.kind = operators::Kind::kGradient;
-  op.volume = size;
-  op.silhouette = silhouette;
-  return op;
+  return operators::Gradient{.silhouette = silhouette, .volume = size};
 }
 
 operators::Operator sampled(int size, const std::function<double(double, double, double)>& function) {
@@ -47,10 +43,7 @@ operators::Operator sampled(int size, const std::function<double(double, double,
       }
     }
   }
-  operators::Operator op;
-  op.kind = operators::Kind::kSampled;
-  op.samples = std::move(samples);
-  return op;
+  return operators::Sampled{.samples = std::move(samples)};
 }
 
 VolumeLease get(VolumeCache& cache, const operators::Operator& op) {
@@ -238,7 +231,7 @@ TEST(OperatorVolume, LooksUpAsTheReferenceDoes) {
   expect_as_reference(gradient(16), 16, operators::gradient_nodes({}, 16), Continuation::kAboutBoundary);
   const operators::Operator op =
       sampled(9, [](double f1, double f2, double theta) { return analytic(f1, f2, theta).g; });
-  expect_as_reference(op, 9, operators::sampled_nodes(*op.samples), Continuation::kAboutOrigin);
+  expect_as_reference(op, 9, operators::sampled_nodes(*op.as<operators::Sampled>()->samples), Continuation::kAboutOrigin);
 }
 
 TEST(OperatorVolume, LeavesAFieldAloneWhereTheOtherIsZero) {
@@ -363,9 +356,8 @@ TEST(VolumeCache, SharesFreesAndCounts) {
   VolumeCache cache(device(), kernels());
   EXPECT_EQ(cache.usage().volumes, 0u);
   VolumeLease a = get(cache, gradient(32));
-  operators::Operator other_opening = gradient(32);
-  other_opening.opening = operators::organic();
-  other_opening.form = operators::Form::kDifference;
+  const operators::Operator other_opening(operators::Gradient{.opening = operators::organic(), .volume = 32},
+                                          operators::Form::kDifference);
   VolumeLease b = get(cache, other_opening);
   EXPECT_EQ(a, b) << "the opening and the form are no part of a volume";
   const VolumeLease larger = get(cache, gradient(64)),
@@ -413,10 +405,10 @@ TEST(VolumeCache, RefusesWhatHasNoVolume) {
   EXPECT_EQ(cache.get(gradient(0)).status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(cache.get(gradient(48)).status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(cache.get(operators::Operator{}).status().code(), absl::StatusCode::kInvalidArgument);
-  operators::Operator broken = sampled(4, [](double, double, double) { return 1.0; });
-  auto samples = std::make_shared<operators::SampledVolume>(*broken.samples);
+  const operators::Operator whole = sampled(4, [](double, double, double) { return 1.0; });
+  auto samples = std::make_shared<operators::SampledVolume>(*whole.as<operators::Sampled>()->samples);
   samples->values.pop_back();
-  broken.samples = samples;
+  const operators::Operator broken = operators::Sampled{.samples = samples};
   EXPECT_EQ(cache.get(broken).status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(cache.usage().volumes, 0u);
 }

@@ -101,7 +101,7 @@ TEST(WrittenKernels, AgreeWithTheInterpreterOnEveryOperator) {
   WrittenKernels written(device(), {});
   const std::vector<float> xyz = random_points(2, 1000);
   for (const Case& c : cases()) {
-    const bool is_signed = operators::law_of(c.op.kind) == operators::Law::kSigned;
+    const bool is_signed = c.op.law() == operators::Law::kSigned;
     std::vector<std::string> names;
     std::string nodes = "[";
     for (std::size_t i = 0; i < c.operands; ++i) {

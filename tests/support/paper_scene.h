@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "blobtree/geometry/vec3.h"
-#include "blobtree/primitives/distance.h"
+#include "blobtree/primitives/falloff.h"
 
 namespace isofield::test_support {
 

@@ -10,7 +10,6 @@ namespace {
 
 using blobtree::Instruction;
 using blobtree::Operand;
-using blobtree::Operator;
 using reference::FieldState;
 
 [[noreturn]] void die(const char* message) {
@@ -26,17 +25,21 @@ FieldState linear(const FieldState& a, double factor, double offset) {
 
 // The operator of an instruction, of the operands that its mask leaves.
 operators::Operator operator_of(const Instruction& i, const blobtree::Operation& o) {
-  operators::Operator op;
-  if (i.op() == Operator::kSubtract || i.op() == Operator::kSubtractFrom) {
-    op.kind = operators::Kind::kDifference;
-    return op;
+  if (i.op() == operators::Opcode::kSubtract || i.op() == operators::Opcode::kSubtractFrom) {
+    return operators::Difference{};
   }
-  op = *o.what;
-  if (o.operands == 0) return op;
-  op.terms.clear();
-  for (std::uint32_t k = 0; k < o.operands; ++k) {
-    if (i.leaf >> k & 1) op.terms.push_back(o.what->term(k));
-  }
+  operators::Operator op = *o.what;
+  std::visit(
+      [&]<class K>(K& kind) {
+        if constexpr (operators::IsJoint<K>) {
+          const K whole = kind;
+          kind.terms.clear();
+          for (std::uint32_t k = 0; k < o.operands; ++k) {
+            if (i.leaf >> k & 1) kind.terms.push_back(whole.term(k));
+          }
+        }
+      },
+      op.parameters);
   return op;
 }
 
@@ -46,8 +49,8 @@ FieldState TapeInterpreter::leaf(const Instruction& i, const blobtree::dvec3& p)
   if (!i.is_leaf()) return {};  // Operand::kZero
   const blobtree::Leaf& leaf = tape_.leaves.at(i.index);
   const FieldState v =
-      reference::evaluate_primitive({leaf.shape, leaf.size, leaf.range, leaf.law, leaf.to_local, leaf.anchor,
-                                     leaf.to_local}, p);
+      reference::evaluate_primitive({leaf.shape, leaf.range, leaf.law, leaf.place.to_local, leaf.place.anchor,
+                                     leaf.place.to_local}, p);
   return leaf.law == operators::Law::kSigned ? linear(v, leaf.per_distance, 0) : v;
 }
 
@@ -56,28 +59,28 @@ FieldState TapeInterpreter::evaluate(std::span<const Instruction> code, const bl
   FieldState acc;
   bool empty = true;  // acc holds no value yet
   for (const Instruction& i : code) {
-    if (i.op() == Operator::kPush) {
+    if (i.op() == operators::Opcode::kPush) {
       if (!empty) waiting_.push_back(acc);
       most_waiting_ = std::max(most_waiting_, waiting_.size());
       acc = leaf(i, p);
       empty = false;
       continue;
     }
-    if (i.op() == Operator::kLinear) {
+    if (i.op() == operators::Opcode::kLinear) {
       const auto [factor, offset] = tape_.linear(i);
       acc = linear(acc, factor, offset);
       continue;
     }
     const blobtree::Operation& o = tape_.operation(i);
-    if (i.op() == Operator::kSoften) {
+    if (i.op() == operators::Opcode::kSoften) {
       acc = reference::soften(acc, o.range);
       continue;
     }
     const operators::Operator op = operator_of(i, o);
-    const bool is_signed = operators::law_of(op.kind) == operators::Law::kSigned || i.mode().is_signed;
+    const bool is_signed = op.law() == operators::Law::kSigned || i.mode().is_signed;
     const reference::OperatorUse use{&op, is_signed ? operators::Law::kSigned : operators::Law::kPositive, o.length,
                                      o.frame};
-    if (i.op() == Operator::kBtk || i.op() == Operator::kSuperelliptic) {
+    if (op.is_joint()) {
       std::vector<FieldState> operands{acc};
       while (operands.size() < static_cast<std::size_t>(std::popcount(i.leaf))) {
         if (waiting_.empty()) die("a tape joins a value that is not there");
@@ -96,7 +99,7 @@ FieldState TapeInterpreter::evaluate(std::span<const Instruction> code, const bl
     } else {
       right = leaf(i, p);
     }
-    const bool is_exchanged = i.op() == Operator::kSubtractFrom || i.mode().is_exchanged;
+    const bool is_exchanged = i.op() == operators::Opcode::kSubtractFrom || i.mode().is_exchanged;
     acc = is_exchanged ? combine(use, {right, acc}) : combine(use, {acc, right});
   }
   if (!waiting_.empty()) die("a tape leaves values waiting");

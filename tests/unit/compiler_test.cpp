@@ -56,7 +56,7 @@ TEST(Compiler, DeepSecondOperandsGoFirstAndDifferencesAreTurnedAround) {
     {"sum": {"children": ["#1","#4"]}}, {"difference": {"children": ["#0","#5"]}})"));
   const Tape tape = compile_or_die(scene);
   EXPECT_EQ(tape.stack_depth, 0u);
-  EXPECT_EQ(tape.code.back().op(), Operator::kSubtractFrom);
+  EXPECT_EQ(tape.code.back().op(), operators::Opcode::kSubtractFrom);
   expect_tape_is_scene(scene, 1, 500, 1.2);
 }
 
@@ -71,9 +71,9 @@ TEST(Compiler, OpcodeSetsHoldWhatPruningMayMakeOfATape) {
   // f - 0 with f > 1 is clamped by an instruction that the whole tape needs not hold (pruner.cpp).
   const Tape tape = compile_or_die(read_or_die(scene_of_nodes(kFour + R"({"sum": {"children": ["#1","#2"]}},
     {"difference": {"children": ["#0","#4"]}})")));
-  EXPECT_TRUE(tape.operator_set >> static_cast<int>(Operator::kSubtractFrom) & 1);
-  EXPECT_TRUE(tape.operator_set >> static_cast<int>(Operator::kSubtract) & 1);
-  EXPECT_TRUE(tape.operand_set >> static_cast<int>(Operand::kZero) & 1);
+  EXPECT_TRUE(tape.codes.opcodes.has(operators::Opcode::kSubtractFrom));
+  EXPECT_TRUE(tape.codes.opcodes.has(operators::Opcode::kSubtract));
+  EXPECT_TRUE(tape.codes.operands.has(Operand::kZero));
 }
 
 TEST(Compiler, LengthIsTheLargestRangeBelowInTheWorld) {
@@ -109,7 +109,7 @@ Tape transformed(const std::string& join, const std::string& transform) {
 
 TEST(Compiler, OnlyMapsThatChangeAnglesAboveBlendsThatFollowThemMakeFrames) {
   const auto has_frames = [](const Tape& tape) {
-    EXPECT_EQ((tape.operator_set & kFramed) != 0, tape.operations[0].frame.has_value());
+    EXPECT_EQ((tape.codes.flags & Codes::kFramed) != 0, tape.operations[0].frame.has_value());
     return tape.operations[0].frame.has_value();
   };
   EXPECT_TRUE(has_frames(transformed(R"("gradient")", R"("scale": [2,1,1])")));

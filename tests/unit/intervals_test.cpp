@@ -6,7 +6,6 @@
 
 #include "blobtree/tape/operation.h"
 #include "operators/gradient_blend.h"
-#include "operators/signed_blends.h"
 #include "support/random_scene.h"
 
 namespace isofield::blobtree {
@@ -16,11 +15,9 @@ using operators::Silhouette;
 using test_support::Random;
 
 Operation blend_of(const Silhouette& silhouette) {
-  auto op = std::make_shared<operators::Operator>();
-  op->kind = operators::Kind::kGradient;
-  op->silhouette = silhouette;
-  SilhouetteBounds bounds;
-  return operation_of(std::move(op), operators::Law::kPositive, 2, bounds);
+  auto op = std::make_shared<operators::Operator>(operators::Gradient{.silhouette = silhouette});
+  operators::SilhouetteBounds silhouettes;
+  return operation_of(std::move(op), operators::Law::kPositive, 2, silhouettes);
 }
 
 TEST(Intervals, OfGradientBlendsHoldAtEveryAngle) {
@@ -59,11 +56,10 @@ TEST(Intervals, OfSmoothGradientBlendsAreReached) {
 }
 
 Operation functional_of(std::vector<double> x, std::vector<double> h) {
-  auto op = std::make_shared<operators::Operator>();
-  op->kind = operators::Kind::kFunctional;
-  op->curve = operators::SampledCurve(std::move(x), std::move(h));
-  SilhouetteBounds bounds;
-  return operation_of(std::move(op), operators::Law::kSigned, 2, bounds);
+  auto op = std::make_shared<operators::Operator>(
+      operators::Functional{operators::SampledCurve(std::move(x), std::move(h))});
+  operators::SilhouetteBounds silhouettes;
+  return operation_of(std::move(op), operators::Law::kSigned, 2, silhouettes);
 }
 
 TEST(Intervals, OfFunctionalBlendsHold) {
@@ -80,7 +76,7 @@ TEST(Intervals, OfFunctionalBlendsHold) {
       const int alone = lone_operand(o, {}, a, b);
       for (int i = 0; i < 8; ++i) {
         const double f1 = random.number(a.lo, a.hi), f2 = random.number(b.lo, b.hi);
-        const auto r = operators::functional_blend(f1, f2, o.what->curve);
+        const auto r = o.what->as<operators::Functional>()->unite(f1, f2);
         ASSERT_GE(r.g, g.lo) << f1 << " " << f2;
         ASSERT_LE(r.g, g.hi) << f1 << " " << f2;
         if (alone >= 0) {

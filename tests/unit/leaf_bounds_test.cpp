@@ -1,4 +1,4 @@
-#include "blobtree/primitives/leaf_bounds.h"
+#include "blobtree/primitives/leaf.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,8 @@ TEST(LeafBounds, HoldAtRandomPointsOfRandomBoxes) {
         dvec3 centre = random.point(-1.6, 1.6);
         // On the skeleton, where the distance has no gradient, too.
         if (leaf.operand == Operand::kSegment && n == 0) {
-          centre = leaf.anchor + leaf.to_local.linear[2] * (leaf.size[0] * random.number(-0.1, 1.1));
+          const double along = std::get<shapes::Segment>(leaf.shape).length * random.number(-0.1, 1.1);
+          centre = leaf.place.anchor + leaf.place.to_local.linear[2] * along;
         }
         const double size = std::exp(random.number(-6, 0.5));
         const dvec3 half = random.point(0, size);
@@ -69,7 +70,7 @@ TEST(LeafBounds, OfSpheresAreReached) {
 TEST(LeafBounds, OfRoundConesFollowTheirNormal) {
   // Beside the cone of a tilt with sine 0.6, whose normal there is (0.8, 0, 0.6).
   const Leaf leaf = leaf_of(R"({"segment": {"a": [0,0,0], "b": [0,0,10], "radius_a": 7, "radius_b": 1, "range": 1}})");
-  const dvec3 p = dvec3{0, 0, 5} + dvec3{0.8, 0, 0.6} * 6;
+  const dvec3 p = dvec3{0, 0, 5} + dvec3{0.8, 0, 0.6} * 6.0;
   const double h = 0.01;
   const Interval bounds = distance_bounds(leaf, CentredBox({p - dvec3{h, h, h}, p + dvec3{h, h, h}}));
   EXPECT_NEAR(leaf.distance(p), 2, 1e-12);

@@ -1,10 +1,11 @@
-#include "blobtree/primitives/leaf_placer.h"
+#include "blobtree/primitives/leaf.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
+#include "blobtree/primitives/falloff.h"
 #include "blobtree/scene/scene_reader.h"
 #include "blobtree/tape/compiler.h"
 #include "support/random_scene.h"
@@ -79,7 +80,7 @@ TEST(LeafPlacer, SupportsAreTightForPlainShapes) {
     SCOPED_TRACE(text);
     const Leaf leaf = compile_or_die(read_or_die(scene_of_nodes(text))).leaves[0];
     const dvec3 middle = (leaf.support.min + leaf.support.max) * 0.5;
-    const bool ring = leaf.shape == Shape::kTorus;
+    const bool ring = std::holds_alternative<shapes::Torus>(leaf.shape);
     const dvec3 size = leaf.support.max - leaf.support.min;
     for (const double side : {-0.4999, 0.4999}) {
       EXPECT_GT(field_of(leaf, middle + dvec3{size.x * side, 0, 0}), 0);
@@ -109,11 +110,12 @@ TEST(LeafPlacer, SimilarPlacementsAreRigid) {
   const Leaf& leaf = tape.leaves[0];
   EXPECT_EQ(leaf.operand, Operand::kSegment);
   EXPECT_EQ(leaf.stretch, 1);
-  EXPECT_NEAR(leaf.size[0], 9, 1e-12);
-  EXPECT_NEAR(leaf.size[1], 1.5, 1e-12);
+  EXPECT_TRUE(leaf.place.is_rigid);
+  EXPECT_NEAR(std::get<shapes::Segment>(leaf.shape).length, 9, 1e-12);
+  EXPECT_NEAR(std::get<shapes::Segment>(leaf.shape).radius_a, 1.5, 1e-12);
   EXPECT_NEAR(leaf.range, 0.75, 1e-12);
-  EXPECT_NEAR(leaf.to_local.stretch().least, 1, 1e-12);
-  EXPECT_NEAR(leaf.to_local.stretch().most, 1, 1e-12);
+  EXPECT_NEAR(leaf.place.to_local.stretch().least, 1, 1e-12);
+  EXPECT_NEAR(leaf.place.to_local.stretch().most, 1, 1e-12);
 }
 
 TEST(LeafPlacer, UniformScaleMayBeLargeOrSmall) {

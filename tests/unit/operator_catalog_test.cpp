@@ -43,7 +43,7 @@ TEST(OperatorCatalog, KeepsListsAndRemoves) {
   EXPECT_EQ(catalog.get("b")->message->gradient().silhouette().k(), 0.5);
   const auto second = put(catalog, "b", 0.75);
   EXPECT_EQ(second->version, 3u);
-  EXPECT_EQ(catalog.get("b")->op->silhouette.k, 0.75);
+  EXPECT_EQ(catalog.get("b")->op->as<operators::Gradient>()->silhouette.k, 0.75);
   EXPECT_TRUE(catalog.remove("b").ok());
   EXPECT_EQ(catalog.remove("b").code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(put(catalog, "b", 0.5)->version, 4u) << "versions are not used again";
@@ -56,7 +56,7 @@ TEST(OperatorCatalog, EntriesOutliveTheirNames) {
   ASSERT_TRUE(put(catalog, "a", 0.5).ok());
   ASSERT_TRUE(catalog.remove("a").ok());
   EXPECT_EQ(entry.message->gradient().silhouette().k(), 0.25);
-  EXPECT_EQ(entry.op->silhouette.k, 0.25);
+  EXPECT_EQ(entry.op->as<operators::Gradient>()->silhouette.k, 0.25);
 }
 
 TEST(OperatorCatalog, RefusesNames) {
@@ -100,7 +100,7 @@ TEST(OperatorCatalog, TablesHoldWhatTheNamesMeanNow) {
   const auto table = *catalog.table_for(scene_with({"a", "a"}));
   ASSERT_TRUE(put(catalog, "a", 0.75).ok());
   ASSERT_EQ(table->size(), 1u);
-  EXPECT_EQ(table->at("a")->silhouette.k, 0.25);
+  EXPECT_EQ(table->at("a")->as<operators::Gradient>()->silhouette.k, 0.25);
   const absl::Status status = catalog.table_for(scene_with({"b", "c"})).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
   for (const char* part : {"nodes[2] 'uses c'.operator = 'c'", "'a', 'b'"}) {

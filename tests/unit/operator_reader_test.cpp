@@ -53,7 +53,7 @@ TEST(OperatorReader, SampledOpeningsAreCurvesThroughTheirSamples) {
   const auto op = read_operator(message);
   ASSERT_TRUE(op.ok()) << op.status();
   const double degree = std::numbers::pi / 180;
-  const operators::Opening& o = (*op)->opening;
+  const operators::Opening& o = *(*op)->opening();
   EXPECT_NEAR(o.theta(0).v, 45 * degree, 1e-12);
   EXPECT_NEAR(o.theta(45 * degree).v, 10 * degree, 1e-12);
   EXPECT_NEAR(o.theta_min(), 0, 1e-12);
@@ -216,7 +216,7 @@ TEST(OperatorReader, CustomNodesTakeTheOperatorOfTheTable) {
       {"custom": {"children": ["p", "p"], "operator": "mine"}}])"),
                                 {}, {{"mine", *op}});
   ASSERT_TRUE(scene.ok()) << scene.status();
-  EXPECT_EQ(scene->nodes[1].op->exponent, 3);
+  EXPECT_EQ(scene->nodes[1].op->as<operators::Ricci>()->exponent, 3);
 }
 
 }  // namespace

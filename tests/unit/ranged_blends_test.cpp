@@ -1,5 +1,5 @@
 // The conic blend as the paper writes it, against the form that is free of cancellation.
-#include "operators/ranged_blends.h"
+#include "operators/bt2.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ struct Conic {
   double r1, r2, m1, m2, p;
 
   double tightness() const { return 1 - p / (r1 * r2); }
-  Binary<double> at(double x1, double x2) const { return bt2<double>(x1, x2, {r1, m1}, {r2, m2}, tightness()); }
+  Binary<double> at(double x1, double x2) const { return Bt2::blend<double>(x1, x2, {r1, m1}, {r2, m2}, tightness()); }
 };
 
 // [H] eq. 4: the root of the quadratic within its bracket.

@@ -265,15 +265,15 @@ TEST(SceneReader, DefaultsAndPresetsAreFilledIn) {
       {"gradient": {"children": ["#3"], "opening": {"alpha0": 1, "alpha1": 2, "alpha2": 3, "theta0": 4, "theta1": 5,
                     "theta2": 6, "w0": 7, "w1": 8}}})"));
   ASSERT_TRUE(scene.ok()) << scene.status().message();
-  EXPECT_EQ(scene->nodes[2].op->opening, operators::camel());
-  EXPECT_EQ(scene->nodes[2].op->silhouette, operators::Silhouette{});
-  const operators::Opening& o = scene->nodes[3].op->opening;
+  EXPECT_EQ(*scene->nodes[2].op->opening(), operators::camel());
+  EXPECT_EQ(scene->nodes[2].op->as<operators::Gradient>()->silhouette, operators::Silhouette{});
+  const operators::Opening& o = *scene->nodes[3].op->opening();
   EXPECT_EQ(o.alpha1, operators::organic().alpha1);
   EXPECT_NEAR(o.alpha2, 150 * kDegree, 1e-15);
   EXPECT_NEAR(o.theta0, 10 * kDegree, 1e-15);
-  EXPECT_EQ(scene->nodes[3].op->silhouette, (operators::Silhouette{operators::Silhouette::Kind::kBulge, 0.25}));
-  EXPECT_NEAR(scene->nodes[4].op->opening.theta2, 6 * kDegree, 1e-15);
-  EXPECT_EQ(scene->nodes[4].op->opening.w1, 8);
+  EXPECT_EQ(scene->nodes[3].op->as<operators::Gradient>()->silhouette, (operators::Silhouette{operators::Silhouette::Kind::kBulge, 0.25}));
+  EXPECT_NEAR(scene->nodes[4].op->opening()->theta2, 6 * kDegree, 1e-15);
+  EXPECT_EQ(scene->nodes[4].op->opening()->w1, 8);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "blobtree/primitives/leaf_placer.h"
+#include "blobtree/primitives/leaf.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 
@@ -55,9 +55,9 @@ void expect_same(const Tape& tape, const ParameterBuffers& whole, const Instruct
     EXPECT_LE(at + size, kWindowSize);
   };
   if (original.is_leaf()) {
-    same(packed.leaf, window.leaves, whole.leaves, original.leaf, leaf_record_size(original.operand()));
+    same(packed.leaf, window.leaves, whole.leaves, original.leaf, record_size(original.operand()));
   }
-  if (original.op() != Operator::kPush) {
+  if (original.op() != operators::Opcode::kPush) {
     const Operation& o = tape.operation(original);
     same(packed.operation - o.frame_size(), window.operations, whole.operations, original.operation - o.frame_size(),
          operation_record_size(o));

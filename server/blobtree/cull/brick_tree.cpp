@@ -26,7 +26,7 @@ RaySpan clip(const Ray& ray, const Box& box, RaySpan within) {
 }
 
 BrickTree::BrickTree(const Lattice& lattice, const std::vector<Brick>& bricks)
-    : origin_(lattice.origin), step_(lattice.spacing * kBrickCells), brick_count_(bricks.size()) {
+    : origin_(lattice.origin), step_(lattice.spacing * double{kBrickCells}), brick_count_(bricks.size()) {
   std::vector<Cell> cells;
   cells.reserve(bricks.size());
   for (const Brick& b : bricks) cells.push_back({b.x, b.y, b.z});

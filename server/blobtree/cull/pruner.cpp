@@ -4,12 +4,12 @@
 #include <bit>
 #include <cmath>
 
-#include "blobtree/scene/scene.h"
+#include "blobtree/primitives/falloff.h"
 
 namespace isofield::blobtree {
 namespace {
 
-Instruction with_operator(Instruction i, Operator op) {
+Instruction with_operator(Instruction i, Opcode op) {
   i.code = (i.code & 0xff) | static_cast<std::uint32_t>(op) << 8;
   return i;
 }
@@ -18,28 +18,26 @@ Instruction with_operand(Instruction i, Operand operand) {
   return i;
 }
 
-bool is_n_ary(Operator op) {
-  return op == Operator::kBtk || op == Operator::kSuperelliptic;
+bool is_joint(Opcode op) {
+  return operators::traits_of(op).applies == operators::Applies::kMany;
 }
 
 }  // namespace
 
 Pruner::Value Pruner::leaf_value(const Leaf& leaf, const Box& box, const CentredBox& centred) const {
-  const bool is_signed = leaf.law == operators::Law::kSigned;
-  if (!is_signed && !leaf.support.touches(box)) return {{0, 0}, 0, true};
-  const Interval d = distance_bounds(leaf, centred);
-  if (is_signed) return {{d.lo * leaf.per_distance, d.hi * leaf.per_distance}, 0};
-  if (d.lo >= leaf.range) return {{0, 0}, 0, true};
-  return {{std::max(soften(d.hi, leaf.range) - kValueRoom, 0.0), soften(d.lo, leaf.range) + kValueRoom}, 0};
+  const bool is_positive = leaf.law == operators::Law::kPositive;
+  if (is_positive && !leaf.support.touches(box)) return {{0, 0}, 0, true};
+  const Interval range = field_bounds(leaf, centred);
+  return {range, 0, is_positive && range.hi <= 0};
 }
 
 void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vector<Instruction>& out) {
-  const Operator op = i.op();
+  const Opcode op = i.op();
   const Mode mode = i.mode();
   Value& left = stack_.back();
   const auto keep_right = [&] {
     out.erase(out.begin() + left.begin, out.begin() + right.begin);
-    if (fused) out.push_back(with_operator(i, Operator::kPush));
+    if (fused) out.push_back(with_operator(i, Opcode::kPush));
     left.range = right.range;
     left.is_zero = false;
   };
@@ -52,41 +50,38 @@ void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vec
   // f - 0 = min(f, 1): only sums and blends pass 1.
   const auto clamp = [&] {
     if (left.range.hi <= 1 + 2 * kValueRoom) return;
-    out.push_back(with_operator(with_operand(i, Operand::kZero), Operator::kSubtract));
+    out.push_back(with_operator(with_operand(i, Operand::kZero), Opcode::kSubtract));
     left.range = {std::min(left.range.lo, 1.0), 1 + kValueRoom};
   };
   const bool left_zero = left.is_zero, right_zero = right.is_zero;
   if (left_zero || right_zero) {
     // Positive fields. What a form or a difference makes of a 0 depends on which operand it is.
     const bool is_difference =
-        op == Operator::kSubtract || op == Operator::kSubtractFrom || mode.form == operators::Form::kDifference;
-    const bool left_is_first = op != Operator::kSubtractFrom && !mode.is_exchanged;
+        op == Opcode::kSubtract || op == Opcode::kSubtractFrom || mode.form == operators::Form::kDifference;
+    const bool left_is_first = op != Opcode::kSubtractFrom && !mode.is_exchanged;
     if (is_difference) {
       if (left_is_first ? left_zero : right_zero) return vanish();
       return left_is_first ? keep_left() : keep_right(), clamp();
     }
-    if (op == Operator::kMin || mode.form == operators::Form::kIntersection) return vanish();
+    if (op == Opcode::kMin || mode.form == operators::Form::kIntersection) return vanish();
     return right_zero ? keep_left() : keep_right();
   }
   if (mode.form == operators::Form::kUnion) {
     const bool greater = left.range.lo > right.range.hi, less = left.range.hi < right.range.lo;
-    if (op == Operator::kMax && (greater || less)) return greater ? keep_left() : keep_right();
-    if (op == Operator::kMin && (greater || less)) return less ? keep_left() : keep_right();
+    if (op == Opcode::kMax && (greater || less)) return greater ? keep_left() : keep_right();
+    if (op == Opcode::kMin && (greater || less)) return less ? keep_left() : keep_right();
   }
   const Operation& o = tape_.operation(i);
-  if (op == Operator::kBt2 || op == Operator::kFunctional) {
-    const int alone = lone_operand(o, mode, left.range, right.range);
-    if (alone >= 0) {
-      (alone == 0) != mode.is_exchanged ? keep_left() : keep_right();
-      if (op == Operator::kBt2 && o.what->term(alone).weight != 1) {
-        convert(instruction(Operand::kZero, Operator::kLinear, 0, o.record + 1 + alone), out);
-      }
-      return;
+  const int alone = lone_operand(o, mode, left.range, right.range);
+  if (alone >= 0) {
+    (alone == 0) != mode.is_exchanged ? keep_left() : keep_right();
+    if (o.what->weight(alone) != 1) {
+      convert(instruction(Operand::kZero, Opcode::kLinear, 0, o.record + 1 + alone), out);
     }
+    return;
   }
   const Interval range = binary_interval(op, o, mode, left.range, right.range);
-  const bool is_positive =
-      !mode.is_signed && (op <= Operator::kBernhardt && op != Operator::kMax && op != Operator::kMin);
+  const bool is_positive = o.law == operators::Law::kPositive;
   if (is_positive && range.hi <= 0) return vanish();
   out.push_back(i);
   left.range = range;
@@ -94,7 +89,7 @@ void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vec
 
 void Pruner::convert(const Instruction& i, std::vector<Instruction>& out) {
   Value& value = stack_.back();
-  if (i.op() == Operator::kSoften) {
+  if (i.op() == Opcode::kSoften) {
     const double range = tape_.operation(i).range;
     if (value.range.lo >= range) {
       out.resize(value.begin);
@@ -104,7 +99,7 @@ void Pruner::convert(const Instruction& i, std::vector<Instruction>& out) {
     value.range = {std::max(soften(value.range.hi, range) - kValueRoom, 0.0),
                    soften(value.range.lo, range) + kValueRoom};
   } else {
-    if (value.is_zero) out.push_back(instruction(Operand::kZero, Operator::kPush));
+    if (value.is_zero) out.push_back(instruction(Operand::kZero, Opcode::kPush));
     value.is_zero = false;
     const auto [factor, offset] = tape_.linear(i);
     const double a = value.range.lo * factor + offset, b = value.range.hi * factor + offset;
@@ -122,14 +117,13 @@ void Pruner::join_all(const Instruction& i, std::vector<Instruction>& out) {
   std::vector<Interval> ranges;
   for (std::size_t n = first; n < stack_.size(); ++n) ranges.push_back(stack_[n].range);
   const std::size_t begin = stack_[first].begin;
-  std::uint32_t mask = i.leaf;
-  if (i.op() == Operator::kBtk) mask = active_operands(o, mode, i.leaf, ranges);
+  const std::uint32_t mask = active_operands(o, mode, i.leaf, ranges);
   if (mask != i.leaf) {
     // Backwards, so that what is yet to go keeps its place.
     std::size_t end = out.size();
     std::vector<Interval> left;
     std::size_t at = stack_.size();
-    for (std::uint32_t bit = kMaxOperands; bit-- > 0;) {
+    for (std::uint32_t bit = operators::kMaxOperands; bit-- > 0;) {
       if (!(i.leaf >> bit & 1)) continue;
       --at;
       if (mask >> bit & 1) {
@@ -146,17 +140,17 @@ void Pruner::join_all(const Instruction& i, std::vector<Instruction>& out) {
   stack_.resize(first + 1);
   if (std::has_single_bit(mask)) {
     const auto operand = static_cast<std::uint32_t>(std::countr_zero(mask));
-    const double weight = o.what->term(operand).weight;
+    const double weight = o.what->weight(operand);
     stack_.back() = {ranges[0], begin};
     if (weight != 1) {
-      convert(instruction(Operand::kZero, Operator::kLinear, 0, o.record + 1 + operand), out);
+      convert(instruction(Operand::kZero, Opcode::kLinear, 0, o.record + 1 + operand), out);
     }
     return;
   }
   Instruction kept = i;
   kept.leaf = mask;
   out.push_back(kept);
-  stack_.back() = {n_ary_interval(i.op(), o, mode, mask, std::move(ranges)), begin};
+  stack_.back() = {joint_interval(o, mode, mask, std::move(ranges)), begin};
 }
 
 Pruned Pruner::prune(const std::vector<Instruction>& source, std::size_t begin, std::size_t count, const Box& box,
@@ -165,11 +159,11 @@ Pruned Pruner::prune(const std::vector<Instruction>& source, std::size_t begin, 
   stack_.clear();
   for (std::size_t n = 0; n < count; ++n) {
     const Instruction i = source[begin + n];
-    if (i.op() == Operator::kLinear || i.op() == Operator::kSoften) {
+    if (i.op() == Opcode::kLinear || i.op() == Opcode::kSoften) {
       convert(i, out);
       continue;
     }
-    if (is_n_ary(i.op())) {
+    if (is_joint(i.op())) {
       join_all(i, out);
       continue;
     }
@@ -184,9 +178,9 @@ Pruned Pruner::prune(const std::vector<Instruction>& source, std::size_t begin, 
       right.begin = out.size();
     } else {
       // The constant 0: what is taken away where nothing is left to take, or what a conversion starts from.
-      right.is_zero = i.op() != Operator::kPush;
+      right.is_zero = i.op() != Opcode::kPush;
     }
-    if (i.op() == Operator::kPush) {
+    if (i.op() == Opcode::kPush) {
       if (!right.is_zero) out.push_back(i);
       stack_.push_back(right);
     } else {

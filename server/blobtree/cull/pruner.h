@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "blobtree/cull/intervals.h"
-#include "blobtree/primitives/leaf_bounds.h"
 #include "blobtree/tape/tape.h"
 
 namespace isofield::blobtree {

@@ -6,64 +6,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/field_reader.h"
 #include "base/quoted.h"
-#include "blobtree/scene/field_reader.h"
 #include "blobtree/scene/operator_reader.h"
 
 namespace isofield::blobtree {
 namespace {
 
+using base::FieldReader;
+
 constexpr double kRadians = std::numbers::pi / 180;
-
-// The law of a primitive's field, and its range where it has one.
-template <class Primitive>
-void read_law(const Primitive& m, Node& node, FieldReader& in) {
-  switch (m.law()) {
-    case v1::FIELD_LAW_UNSPECIFIED:
-    case v1::POSITIVE:
-      node.range = in.positive("range", m.range());
-      return;
-    case v1::SIGNED:
-      node.law = operators::Law::kSigned;
-      if (m.range() != 0) in.refuse("range", absl::StrCat(m.range()), "none: a SIGNED field has no range");
-      return;
-    default:
-      in.refuse("law", absl::StrCat(static_cast<int>(m.law())), "POSITIVE or SIGNED");
-  }
-}
-
-void read_segment(const v1::Segment& m, Node& node, FieldReader& in) {
-  const dvec3 a = in.stated_point("a", m.a()), b = in.stated_point("b", m.b());
-  const dvec3 axis = b - a;
-  node.shape = Shape::kSegment;
-  node.size = {length(axis), in.positive("radius_a", m.radius_a()), in.positive("radius_b", m.radius_b())};
-  read_law(m, node, in);
-  node.frame = node.size[0] > 0 ? Affine::frame(a, axis) : Affine::translation(a);
-}
-
-void read_box(const v1::Box& m, Node& node, FieldReader& in) {
-  const dvec3 half = in.lengths("half_size", m.half_size());
-  const double least = std::min({half.x, half.y, half.z});
-  node.shape = Shape::kBox;
-  node.frame = Affine::translation(in.point("center", m.center()));
-  node.size = {half.x, half.y, half.z,
-               in.number("rounding", m.rounding(), 0, least,
-                         absl::StrCat("a radius within [0, ", least, "], the smallest half size"))};
-  read_law(m, node, in);
-}
-
-void read_cylinder(const v1::Cylinder& m, Node& node, FieldReader& in) {
-  const dvec3 a = in.stated_point("a", m.a()), b = in.stated_point("b", m.b());
-  const dvec3 axis = b - a;
-  node.shape = Shape::kCylinder;
-  node.size = {length(axis) / 2, in.positive("radius", m.radius())};
-  read_law(m, node, in);
-  if (node.size[0] >= kMinLength) {
-    node.frame = Affine::frame((a + b) * 0.5, axis);
-  } else {
-    in.refuse("b", "a", "a point that differs from a");
-  }
-}
 
 void read_transform(const v1::Transform& m, Node& node, FieldReader& in) {
   node.kind = NodeKind::kTransform;
@@ -151,40 +103,26 @@ std::vector<const std::string*> child_references(const v1::Node& message) {
 
 absl::Status read_node(const v1::Node& message, const OperatorTable& custom, Node& node) {
   FieldReader in(node.path);
+  // No kind is left out: the compiler refuses a field of the message that has no row in its family's table.
   switch (message.kind_case()) {
-    case v1::Node::kSphere:
-      node.shape = Shape::kSphere;
-      node.frame = Affine::translation(in.point("center", message.sphere().center()));
-      node.size = {in.positive("radius", message.sphere().radius())};
-      read_law(message.sphere(), node, in);
+#define ISOFIELD_CASE(Name, field)                \
+  case v1::Node::k##Name:                         \
+    node.primitive = read_primitive(message, in); \
+    node.law = node.primitive.law;                \
+    break;
+    ISOFIELD_PRIMITIVES(ISOFIELD_CASE)
+#undef ISOFIELD_CASE
+#define ISOFIELD_CASE(Name, field)                            \
+  case v1::Node::k##Name:                                     \
+    node.kind = NodeKind::kOperator;                          \
+    node.op = read_kind<operators::Name>(message.field(), in); \
+    break;
+    ISOFIELD_BLENDS(ISOFIELD_CASE)
+#undef ISOFIELD_CASE
+    case v1::Node::kCustom:
+      node.kind = NodeKind::kOperator;
+      read_custom(message.custom().operator_(), custom, node, in);
       break;
-    case v1::Node::kSegment:
-      read_segment(message.segment(), node, in);
-      break;
-    case v1::Node::kBox:
-      read_box(message.box(), node, in);
-      break;
-    case v1::Node::kCylinder:
-      read_cylinder(message.cylinder(), node, in);
-      break;
-    case v1::Node::kTorus: {
-      const v1::Torus& m = message.torus();
-      const dvec3 center = in.point("center", m.center());
-      const dvec3 axis = in.direction("axis", m.axis(), {0, 0, 1});
-      node.shape = Shape::kTorus;
-      node.size = {in.positive("major_radius", m.major_radius()), in.positive("minor_radius", m.minor_radius())};
-      read_law(m, node, in);
-      if (in.status().ok()) node.frame = Affine::frame(center, axis);
-      break;
-    }
-    case v1::Node::kEllipsoid: {
-      const dvec3 axes = in.lengths("semi_axes", message.ellipsoid().semi_axes());
-      node.shape = Shape::kEllipsoid;
-      node.frame = Affine::translation(in.point("center", message.ellipsoid().center()));
-      node.size = {axes.x, axes.y, axes.z};
-      read_law(message.ellipsoid(), node, in);
-      break;
-    }
     case v1::Node::kTransform:
       read_transform(message.transform(), node, in);
       break;
@@ -196,18 +134,11 @@ absl::Status read_node(const v1::Node& message, const OperatorTable& custom, Nod
       node.kind = NodeKind::kHarden;
       node.law = operators::Law::kSigned;
       break;
-    case v1::Node::kCustom:
-      node.kind = NodeKind::kOperator;
-      read_custom(message.custom().operator_(), custom, node, in);
-      break;
     case v1::Node::KIND_NOT_SET:
       in.miss("kind", absl::StrCat("one of ", kind_names()));
       break;
-    default:
-      node.kind = NodeKind::kOperator;
-      node.op = read_operator(message, in);
   }
-  if (in.status().ok() && node.op) node.law = operators::law_of(node.op->kind);
+  if (in.status().ok() && node.op) node.law = node.op->law();
   return in.status();
 }
 

@@ -5,25 +5,27 @@
 
 #include <memory>
 
-#include "blobtree/scene/field_reader.h"
+#include "base/field_reader.h"
 #include "isofield/v1/operator.pb.h"
 #include "isofield/v1/scene.pb.h"
 #include "operators/operator.h"
+#include "operators/reading.h"
 
 namespace isofield::blobtree {
 
 // INVALID_ARGUMENT: names the field, the value and what was expected.
 absl::StatusOr<std::shared_ptr<const operators::Operator>> read_operator(const v1::Operator& message);
+// An operator of the message's kind, which must be set, with none of its parameters read: for what holds of the kind.
+operators::Operator unread_operator(const v1::Operator& message);
 // An opening function by itself.
 absl::StatusOr<operators::Opening> read_opening(const v1::Opening& message);
 
-// The operator of a node's own kind; null for primitives, transforms, conversions, and `custom`.
-std::shared_ptr<const operators::Operator> read_operator(const v1::Node& message, FieldReader& in);
-
-// How many operands an operator takes.
-struct OperandCount {
-  std::size_t least = 1, most = ~std::size_t{0};
-};
-OperandCount operand_count(const operators::Operator& op);
+// Reads a kind from its message, with its form where the message states one.
+template <class Kind, class Message>
+std::shared_ptr<const operators::Operator> read_kind(const Message& message, base::FieldReader& in) {
+  operators::Form form = operators::Form::kUnion;
+  if constexpr (Kind::kTraits.has_form) form = operators::read_form(message.form(), in);
+  return std::make_shared<const operators::Operator>(Kind::read(message, in), form);
+}
 
 }  // namespace isofield::blobtree

@@ -10,9 +10,9 @@ namespace isofield::blobtree {
 class ProfileCount {
  public:
   void add(const operators::Operator& op) {
-    if (op.is_steered()) openings_.insert(op.opening);
-    if (op.kind == operators::Kind::kGradient) silhouettes_.insert(op.silhouette);
-    if (op.kind == operators::Kind::kFunctional) curves_.insert(op.curve);
+    if (const auto* opening = op.opening()) openings_.insert(*opening);
+    if (const auto* gradient = op.as<operators::Gradient>()) silhouettes_.insert(gradient->silhouette);
+    if (const auto* functional = op.as<operators::Functional>()) curves_.insert(functional->h);
   }
   std::size_t size() const { return openings_.size() + silhouettes_.size() + curves_.size(); }
 

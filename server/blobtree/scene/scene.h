@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "blobtree/geometry/affine.h"
-#include "blobtree/primitives/distance.h"
+#include "blobtree/primitives/leaf.h"
 #include "operators/operator.h"
 
 namespace isofield::blobtree {
@@ -21,13 +21,9 @@ struct Node {
   std::string path;                                // for errors: nodes[3] 'arm/upper'
   std::vector<std::uint32_t> children;             // places in Scene::nodes
 
-  // kPrimitive: its frame maps the shape's own frame to the node's.
-  Shape shape = Shape::kSphere;
-  ShapeSize size{};
-  // kPrimitive of a positive field, kSoften
-  double range = 0;
-  // kPrimitive, kTransform
-  Affine frame;
+  Primitive primitive;  // kPrimitive
+  double range = 0;     // kSoften
+  Affine frame;         // kTransform
 
   std::shared_ptr<const operators::Operator> op;  // kOperator
 };
@@ -49,12 +45,7 @@ struct SceneLimits {
 // Different volumes that one scene's operators may use: each takes a binding of the kernels.
 inline constexpr std::size_t kMaxVolumes = 4;
 
-// Operands of one n-ary operator.
-inline constexpr std::size_t kMaxOperands = 16;
-
-// Lengths and coordinates beyond these would leave the range in which float32 squares are finite.
-inline constexpr double kMaxCoordinate = 1e9;
-inline constexpr double kMinLength = 1e-9;
-inline constexpr double kMaxCondition = 1e6;  // of a transform's linear part
+using base::kMaxCoordinate;
+using base::kMinLength;
 
 }  // namespace isofield::blobtree

@@ -13,7 +13,6 @@
 #include "base/nearest_name.h"
 #include "base/quoted.h"
 #include "blobtree/scene/node_reader.h"
-#include "blobtree/scene/operator_reader.h"
 #include "blobtree/scene/profile_count.h"
 
 namespace isofield::blobtree {
@@ -108,12 +107,12 @@ absl::Status sort_from(const Scene& scene, std::uint32_t start, std::vector<Mark
 
 absl::Status check_operand_count(const Node& node) {
   const auto count = node.children.size();
-  const OperandCount wanted = operand_count(*node.op);
+  const operators::OperandCount wanted = node.op->operand_count();
   if (count >= wanted.least && count <= wanted.most) return absl::OkStatus();
   std::string expected = absl::StrCat("at least ", wanted.least, wanted.least == 1 ? " child" : " children");
   if (wanted.most == wanted.least) {
     expected = absl::StrCat("exactly ", wanted.least, " children");
-  } else if (wanted.most <= kMaxOperands) {
+  } else if (wanted.most <= operators::kMaxOperands) {
     expected = absl::StrCat(wanted.least, " to ", wanted.most, " children");
   }
   if (count == 0) {
@@ -147,7 +146,7 @@ absl::Status check_operands(Scene& scene, const std::vector<std::uint32_t>& orde
         break;
       case NodeKind::kOperator:
         if (absl::Status s = check_operand_count(node); !s.ok()) return s;
-        if (operators::takes_either_law(node.op->kind)) node.law = wanted = scene.nodes[node.children[0]].law;
+        if (node.op->takes_either_law()) node.law = wanted = scene.nodes[node.children[0]].law;
         break;
     }
     for (const std::uint32_t child : node.children) {
@@ -205,7 +204,7 @@ absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
     if (!node.op) continue;
     const operators::Operator& op = *node.op;
     profiles.add(op);
-    if (op.has_volume()) volumes.insert(operators::volume_key(op));
+    if (const operators::VolumeKey key = op.volume_key(); key.size != 0) volumes.insert(key);
     if (profiles.size() > limits.max_profiles) {
       return absl::InvalidArgumentError(absl::StrCat(node.path, ".opening: more than ", limits.max_profiles,
                                                      " different openings and silhouettes in one scene: expected at "

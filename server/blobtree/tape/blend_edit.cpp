@@ -21,14 +21,14 @@ absl::StatusOr<std::optional<Tape>> edit_blends(const Tape& tape, const v1::Scen
     changed.emplace(index, node.op);
   }
   Tape result = tape;
-  SilhouetteBounds bounds;
+  operators::SilhouetteBounds silhouettes;
   for (Operation& o : result.operations) {
     const auto it = changed.find(o.node);
     if (it == changed.end()) continue;
-    Operation fresh = operation_of(it->second, operators::Law::kPositive, 2, bounds);
+    Operation fresh = operation_of(it->second, operators::Law::kPositive, 2, silhouettes);
     if (fresh.op != o.op || fresh.what->form != o.what->form) return std::nullopt;
     o.what = std::move(fresh.what);
-    o.silhouette_bound = fresh.silhouette_bound;
+    o.growth = fresh.growth;
   }
   // At the limit the whole scene is to be judged.
   ProfileCount profiles;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "blobtree/primitives/leaf_placer.h"
 #include "blobtree/tape/bounds.h"
 #include "blobtree/tape/operation.h"
 
@@ -12,11 +11,10 @@ namespace isofield::blobtree {
 namespace {
 
 using operators::Form;
-using operators::Kind;
 using operators::Law;
 
-bool is_n_ary(const Node& node) {
-  return node.op && node.op->is_n_ary();
+bool is_joint(const Node& node) {
+  return node.op && node.op->is_joint();
 }
 bool is_conversion(const Node& node) {
   return node.kind == NodeKind::kSoften || node.kind == NodeKind::kHarden;
@@ -33,11 +31,10 @@ constexpr double kSimilar = 5e-7;
 // The weights of nested blends may multiply fields and their gradients by this much in all.
 constexpr double kMostGain = 1e9;
 
-// The most that an operator multiplies a field by, 1 over its weight.
-double gain_of(const operators::Operator& op) {
+// The most that an operator multiplies one of its operands by, 1 over the operand's weight.
+double gain_of(const operators::Operator& op, std::size_t operands) {
   double gain = 1;
-  if (op.kind != Kind::kBt2 && op.kind != Kind::kBtk) return gain;
-  for (const operators::Term& t : op.terms) gain = std::max(gain, 1 / t.weight);
+  for (std::size_t i = 0; i < operands; ++i) gain = std::max(gain, 1 / op.weight(i));
   return gain;
 }
 
@@ -60,7 +57,7 @@ class Compiler {
 
  private:
   struct Join {
-    Operator op = Operator::kPush;
+    Opcode op = Opcode::kPush;
     std::uint32_t operation = 0;  // in Tape::operations
     Mode mode;
   };
@@ -89,7 +86,7 @@ class Compiler {
       std::size_t need = 0;
       for (std::size_t i = 0; i < node.children.size(); ++i) {
         const std::uint32_t child = ordered_child(node, i);
-        const std::size_t waiting = is_n_ary(node) ? i : i > 0 && !leaf_like_[child] ? 1 : 0;
+        const std::size_t waiting = is_joint(node) ? i : i > 0 && !leaf_like_[child] ? 1 : 0;
         need = std::max(need, depth_[child] + waiting);
       }
       depth_[index] = static_cast<std::uint32_t>(need);
@@ -109,7 +106,7 @@ class Compiler {
   }
 
   bool second_goes_first(const Node& node) const {
-    if (node.children.size() < 2 || is_n_ary(node)) return false;
+    if (node.children.size() < 2 || is_joint(node)) return false;
     const std::uint32_t first = node.children[0], second = node.children[1];
     return leaf_like_[first] ? !leaf_like_[second] : !leaf_like_[second] && depth_[second] > depth_[first];
   }
@@ -133,14 +130,14 @@ class Compiler {
   std::uint32_t add_operation(const Node& node, std::uint32_t index, const Affine& to_world) {
     Operation o;
     if (node.kind == NodeKind::kSoften) {
-      o.op = Operator::kSoften;
+      o.op = Opcode::kSoften;
       o.range = node.range;
     } else if (node.kind == NodeKind::kHarden) {
-      o.op = Operator::kLinear;
+      o.op = Opcode::kLinear;
       o.factor = -1;
       o.offset = 0.5;
     } else {
-      o = operation_of(node.op, node.law, static_cast<std::uint32_t>(node.children.size()), bounds_);
+      o = operation_of(node.op, node.law, static_cast<std::uint32_t>(node.children.size()), silhouettes_);
       tape_.arity = std::max(tape_.arity, o.operands);
       if (has_frames_ && node.op->follows_angle()) o.frame = to_world.gradient_frame();
     }
@@ -152,13 +149,13 @@ class Compiler {
   Join join_of(const Node& node, const Frame& frame, std::uint32_t i) const {
     Join join{tape_.operations[frame.operation].op, frame.operation, {}};
     const bool exchanged = i == 1 && frame.second_first;
-    if (join.op == Operator::kSubtract) {
-      if (exchanged) join.op = Operator::kSubtractFrom;
+    if (join.op == Opcode::kSubtract) {
+      if (exchanged) join.op = Opcode::kSubtractFrom;
       return join;
     }
-    join.mode.form = node.op->applied_form();
+    join.mode.form = node.op->form;
     join.mode.is_signed = node.law == Law::kSigned;
-    join.mode.is_exchanged = exchanged && (is_ordered(*node.op) || join.mode.form == Form::kDifference);
+    join.mode.is_exchanged = exchanged && node.op->is_ordered();
     return join;
   }
 
@@ -182,7 +179,7 @@ class Compiler {
       const std::uint32_t child = ordered_child(node, i);
       if (is_transparent(node)) {
         open(child, top.to_world, top.join);
-      } else if (i == 0 || is_n_ary(node)) {
+      } else if (i == 0 || is_joint(node)) {
         open(child, top.to_world, {});
       } else {
         open(child, top.to_world, join_of(node, top, i));
@@ -192,32 +189,32 @@ class Compiler {
   }
 
   absl::Status emit_leaf(const Node& node, Frame& frame) {
-    absl::StatusOr<Leaf> leaf = place_leaf(node, maps_[frame.to_world]);
+    absl::StatusOr<Leaf> leaf = place_leaf(node.primitive, maps_[frame.to_world], node.path);
     if (!leaf.ok()) return leaf.status();
     leaf->record = tape_.leaf_records;
     leaf->node = frame.node;
-    tape_.leaf_records += leaf_record_size(leaf->operand);
+    tape_.leaf_records += record_size(leaf->operand);
     emit(leaf->operand, frame.join, leaf->record, static_cast<std::uint32_t>(tape_.leaves.size()));
-    if (leaf->law == Law::kSigned) tape_.operand_set |= kSignedLeaves;
-    frame.length = node.range;
+    if (leaf->law == Law::kSigned) tape_.codes.flags |= Codes::kSignedLeaves;
+    frame.length = node.primitive.range;
     frame.bounds = {leaf->support, leaf->growth};
     tape_.leaves.push_back(*std::move(leaf));
     return absl::OkStatus();
   }
 
   void emit(Operand operand, const Join& join, std::uint32_t leaf = 0, std::uint32_t index = 0) {
-    const std::uint32_t record = join.op == Operator::kPush ? 0 : tape_.operations[join.operation].record;
+    const std::uint32_t record = join.op == Opcode::kPush ? 0 : tape_.operations[join.operation].record;
     const Instruction i = instruction(operand, join.op, leaf, record, index, join.mode);
     tape_.code.push_back(i);
-    tape_.operand_set |= 1u << static_cast<std::uint32_t>(operand);
-    tape_.operator_set |= 1u << static_cast<std::uint32_t>(join.op);
-    if (join.op != Operator::kPush) add_sets(tape_, tape_.operations[join.operation], join.mode);
+    tape_.codes.operands.add(operand);
+    tape_.codes.opcodes.add(join.op);
+    if (join.op != Opcode::kPush) add_codes(tape_, tape_.operations[join.operation], join.mode);
   }
 
   // Blends divide fields by weights: nested often enough, beyond what float32 holds.
   static absl::Status check_gain(const Node& node, Frame& frame) {
     if (node.kind == NodeKind::kSoften) frame.gain = 1;
-    if (node.op && node.children.size() >= 2) frame.gain *= gain_of(*node.op);
+    if (node.op && node.children.size() >= 2) frame.gain *= gain_of(*node.op, node.children.size());
     if (frame.gain <= kMostGain) return absl::OkStatus();
     return absl::InvalidArgumentError(
         absl::StrCat(node.path, ": its weights and those of blends below divide a field by ", 1 / frame.gain,
@@ -239,7 +236,7 @@ class Compiler {
       if (is_conversion(node)) {
         done.bounds = node.kind == NodeKind::kSoften ? softened(done.bounds, node.range) : hardened(done.bounds);
         emit(Operand::kZero, own);
-      } else if (is_n_ary(node)) {
+      } else if (is_joint(node)) {
         emit(Operand::kZero, own, (1u << node.children.size()) - 1);
       }
       Operation& operation = tape_.operations[done.operation];
@@ -248,7 +245,7 @@ class Compiler {
         operation.length = done.length * (operation.frame ? 1 : maps_[done.to_world].stretch().most);
       }
       // A transparent node's child, or a leaf, has joined already.
-      if (done.join.op != Operator::kPush) emit(Operand::kPop, done.join);
+      if (done.join.op != Opcode::kPush) emit(Operand::kPop, done.join);
     }
     if (stack_.empty()) {
       tape_.law = node.law;
@@ -278,7 +275,7 @@ class Compiler {
   }
 
   static Mode unary_mode(const Node& node) {
-    if (!is_n_ary(node)) return {};
+    if (!is_joint(node)) return {};
     return {node.op->form, node.law == Law::kSigned, false};
   }
 
@@ -289,20 +286,15 @@ class Compiler {
   std::vector<Frame> stack_;
   std::vector<Affine> maps_;
   bool has_frames_ = false;
-  SilhouetteBounds bounds_;
+  operators::SilhouetteBounds silhouettes_;
 };
 
 }  // namespace
 
 std::pair<double, double> Tape::linear(const Instruction& i) const {
   const Operation& o = operation(i);
-  if (o.op == Operator::kLinear) return {o.factor, o.offset};
-  return {1 / o.what->term(i.operation - o.record - 1).weight, 0};
-}
-
-void Box::add(const Box& other) {
-  min = {std::min(min.x, other.min.x), std::min(min.y, other.min.y), std::min(min.z, other.min.z)};
-  max = {std::max(max.x, other.max.x), std::max(max.y, other.max.y), std::max(max.z, other.max.z)};
+  if (o.op == Opcode::kLinear) return {o.factor, o.offset};
+  return {1 / o.what->weight(i.operation - o.record - 1), 0};
 }
 
 absl::StatusOr<Tape> compile(const Scene& scene) {

@@ -8,7 +8,8 @@
 
 namespace isofield::blobtree {
 
-// Transforms are folded into the leaves, and into the frames of operators that follow an angle; shared nodes expanded, operands ordered so that few values wait on the stack.
+// Folds transforms into the leaves, and into the frames of operators that follow an angle; expands shared nodes, and orders
+// operands so that few values wait on the stack.
 // INVALID_ARGUMENT: more than kMaxStackDepth values would wait, or a transform takes a primitive out of the range of
 // lengths. Uses no recursion.
 absl::StatusOr<Tape> compile(const Scene& scene);

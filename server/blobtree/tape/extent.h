@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "blobtree/scene/scene.h"
 #include "blobtree/tape/tape.h"
 
 namespace isofield::blobtree {
@@ -15,7 +14,7 @@ inline double longest_edge(const Box& box) {
 
 // True where the scene's operators bound its field by themselves. A scene without any field is bounded.
 inline bool is_bounded(const Tape& tape) {
-  return tape.support.empty() || tape.support.max.x < kMaxCoordinate;
+  return tape.support.empty() || tape.support.is_bounded();
 }
 
 }  // namespace isofield::blobtree

@@ -1,20 +1,15 @@
-// The buffers that the device reads a tape's parameters from. Layouts are mirrored in shaders/lib/leaves.glsl and
-// shaders/lib/operators.glsl.
+// The buffers that the device reads a tape's parameters from. Each kind of primitive and of operator lays its own records
+// out, and its .glsl reads them.
 #pragma once
 
-#include <array>
-#include <memory>
 #include <vector>
 
 #include "blobtree/tape/tape.h"
-#include "operators/profile_table.h"
 
 namespace isofield::blobtree {
 
-using Float4 = std::array<float, 4>;
-
 struct ParameterBuffers {
-  std::vector<Float4> leaves;      // records of leaf_record_size vec4s
+  std::vector<Float4> leaves;      // records of record_size(operand) vec4s
   std::vector<Float4> operations;  // records of operation_record_size vec4s
   std::vector<Float4> tables;      // cubic cells of silhouettes, openings and curves
 };

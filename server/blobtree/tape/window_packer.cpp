@@ -2,7 +2,6 @@
 
 #include <cstring>
 
-#include "blobtree/primitives/leaf_placer.h"
 
 namespace isofield::blobtree {
 
@@ -33,8 +32,8 @@ bool WindowPacker::fits(std::uint32_t begin, std::uint32_t count) {
   std::size_t leaves = leaves_.copied.size(), operations = operations_.copied.size();
   for (std::uint32_t n = begin; n < begin + count; ++n) {
     const Instruction& i = code_[n];
-    if (i.is_leaf() && !leaves_.has(i.leaf, window_)) leaves += leaf_record_size(i.operand());
-    if (operations_.is_whole || i.op() == Operator::kPush) continue;
+    if (i.is_leaf() && !leaves_.has(i.leaf, window_)) leaves += record_size(i.operand());
+    if (operations_.is_whole || i.op() == Opcode::kPush) continue;
     const Operation& o = tape_.operation(i);
     if (!operations_.has(o.begin(), window_)) operations += operation_record_size(o);
   }
@@ -56,8 +55,8 @@ std::uint32_t WindowPacker::add(std::uint32_t& begin, std::uint32_t count) {
   last_place_ = static_cast<std::uint32_t>(packed_.size());
   for (std::uint32_t n = begin; n < begin + count; ++n) {
     Instruction i = code_[n];
-    if (i.is_leaf()) i.leaf = leaves_.take(i.leaf, leaf_record_size(i.operand()), window_);
-    if (!operations_.is_whole && i.op() != Operator::kPush) {
+    if (i.is_leaf()) i.leaf = leaves_.take(i.leaf, record_size(i.operand()), window_);
+    if (!operations_.is_whole && i.op() != Opcode::kPush) {
       const Operation& o = tape_.operation(i);
       i.operation += operations_.take(o.begin(), operation_record_size(o), window_) - o.begin();
     }

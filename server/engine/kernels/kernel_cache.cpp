@@ -1,5 +1,6 @@
 #include "engine/kernels/kernel_cache.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/least_used.h"
@@ -11,14 +12,7 @@ namespace isofield::engine {
 namespace {
 
 using blobtree::Operand;
-using blobtree::Operator;
-
-std::uint32_t bit(Operand o) {
-  return 1u << static_cast<std::uint32_t>(o);
-}
-std::uint32_t bit(Operator o) {
-  return 1u << static_cast<std::uint32_t>(o);
-}
+using operators::Opcode;
 
 // Few distinct depths, so that scenes share kernels.
 std::uint32_t round_depth(std::uint32_t depth) {
@@ -26,6 +20,27 @@ std::uint32_t round_depth(std::uint32_t depth) {
     if (depth <= d) return d;
   }
   return blobtree::kMaxStackDepth;
+}
+
+// The number of a set's only member, or kNone.
+template <class Code>
+std::uint32_t only(const blobtree::CodeSet<Code>& set) {
+  if (set.size() != 1) return kNone;
+  std::uint32_t number = 0;
+  while (!set.has(static_cast<Code>(number))) ++number;
+  return number;
+}
+
+std::uint32_t only_operand(const blobtree::Codes& codes) {
+  return only(codes.operands);
+}
+
+std::uint32_t only_opcode(const blobtree::Codes& codes, std::uint32_t stack_depth) {
+  const std::uint32_t operator_flags = codes.flags & ~blobtree::Codes::kSignedLeaves;
+  if (stack_depth != 0 || operator_flags != 0) return kNone;
+  blobtree::CodeSet<Opcode> joins = codes.opcodes;
+  joins.remove(Opcode::kPush);
+  return only(joins);
 }
 
 // Parameters that fit into a uniform buffer.
@@ -37,19 +52,43 @@ std::uint32_t fitting_parameters(const blobtree::Tape& tape) {
 }  // namespace
 
 KernelKind KernelKind::of(const blobtree::Tape& tape) {
-  KernelKind kind{tape.operand_set, tape.operator_set | bit(Operator::kPush), round_depth(tape.stack_depth)};
+  KernelKind kind{tape.codes, round_depth(tape.stack_depth)};
+  kind.codes.opcodes.add(Opcode::kPush);
   kind.arity = round_depth(tape.arity);
   kind.volume_set = (1u << tape.volumes.size()) - 1;
   kind.uniform_set = fitting_parameters(tape);
   // Pruning may turn an exchanged difference with nothing to take away into a clamp.
-  if (kind.operator_set & bit(Operator::kSubtractFrom)) kind.operator_set |= bit(Operator::kSubtract);
+  if (kind.codes.opcodes.has(Opcode::kSubtractFrom)) kind.codes.opcodes.add(Opcode::kSubtract);
   return kind;
 }
 
 KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
-  KernelKind kind{tape.operand_set & ~(bit(Operand::kPop) | bit(Operand::kZero)), bit(Operator::kPush), 0, 1};
+  KernelKind kind;
+  kind.codes.operands = tape.codes.operands;
+  kind.codes.operands.remove(Operand::kPop);
+  kind.codes.operands.remove(Operand::kZero);
+  kind.codes.opcodes.add(Opcode::kPush);
+  kind.codes.flags = tape.codes.flags & blobtree::Codes::kSignedLeaves;
+  kind.tape_length = 1;
   kind.uniform_set = fitting_parameters(tape);
   return kind;
+}
+
+KernelConstants KernelKind::constants() const {
+  KernelConstants values{};
+  const auto set = [&](KernelConstant constant, std::uint32_t value) { values[static_cast<std::size_t>(constant)] = value; };
+  set(KernelConstant::kFlags, codes.flags);
+  set(KernelConstant::kOnlyOperand, only_operand(codes));
+  set(KernelConstant::kOnlyOpcode, only_opcode(codes, stack_depth));
+  set(KernelConstant::kStackDepth, stack_depth);
+  set(KernelConstant::kTapeLength, tape_length);
+  set(KernelConstant::kArity, arity);
+  set(KernelConstant::kVolumeSet, volume_set);
+  set(KernelConstant::kUniformSet, uniform_set);
+  auto word = values.begin() + static_cast<std::size_t>(KernelConstant::kCount);
+  word = std::copy_n(codes.operands.words().begin(), kOperandWords, word);
+  std::copy_n(codes.opcodes.words().begin(), kOpcodeWords, word);
+  return values;
 }
 
 const shaders::Spirv& KernelCache::of(const shaders::InRounds& shader) const {
@@ -58,14 +97,7 @@ const shaders::Spirv& KernelCache::of(const shaders::InRounds& shader) const {
 
 absl::StatusOr<gpu::SharedPipeline> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind,
                                                      const std::function<void()>& waits) {
-  const Key key{reinterpret_cast<std::uintptr_t>(shader.data()),
-                kind.operand_set,
-                kind.operator_set,
-                kind.stack_depth,
-                kind.tape_length,
-                kind.arity,
-                kind.volume_set,
-                kind.uniform_set};
+  const Key key{shader.data(), kind.constants()};
   std::promise<Compiled> promise;
   std::shared_future<Compiled> kernel;
   bool compiles = false, is_ready = false;

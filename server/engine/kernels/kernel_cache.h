@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "blobtree/tape/tape.h"
+#include "engine/kernels/kernel_constants.h"
 #include "engine/kernels/specialised_kernels.h"
 #include "gpu/device.h"
 #include "gpu/pipeline.h"
@@ -20,11 +21,12 @@
 
 namespace isofield::engine {
 
-// The values to which a kernel that runs tapes is specialised (shaders/lib/opcodes.glsl).
+// The values to which a kernel that runs tapes is specialised (server/engine/kernels/kernel_constants.h).
 struct KernelKind {
-  std::uint32_t operand_set = 0, operator_set = 0, stack_depth = 0;
+  blobtree::Codes codes;
+  std::uint32_t stack_depth = 0;
   std::uint32_t tape_length = 0;  // 0: any
-  std::uint32_t arity = 0;        // most operands of an n-ary operator
+  std::uint32_t arity = 0;        // most operands of an operator that takes all of them at once
   std::uint32_t volume_set = 0;   // slots of volumes, by bits (shaders/lib/volume.glsl)
   std::uint32_t uniform_set = 0;  // parameters that are read from uniform buffers (shaders/lib/parameters.glsl)
 
@@ -34,9 +36,7 @@ struct KernelKind {
   static KernelKind single_leaf(const blobtree::Tape& tape);
 
   // The values of specialisation constants 0, 1, 2, ...
-  std::array<std::uint32_t, 7> constants() const {
-    return {operand_set, operator_set, stack_depth, tape_length, arity, volume_set, uniform_set};
-  }
+  KernelConstants constants() const;
 };
 
 struct KernelOptions {
@@ -69,7 +69,7 @@ class KernelCache {
 
  private:
   using Compiled = absl::StatusOr<gpu::SharedPipeline>;
-  using Key = std::array<std::uintptr_t, 8>;
+  using Key = std::pair<const std::uint32_t*, KernelConstants>;
   struct Entry {
     std::shared_future<Compiled> kernel;
     std::uint64_t last_used = 0;  // in calls of get()

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/status_macros.h"
 #include "blobtree/tape/extent.h"
@@ -16,8 +15,6 @@ namespace {
 
 using blobtree::Box;
 using blobtree::Leaf;
-using blobtree::Shape;
-using blobtree::ShapeSize;
 using blobtree::Tape;
 
 // Coarse lattices have at most so many bricks: some milliseconds of one core for scenes of few primitives.
@@ -36,64 +33,12 @@ double offset_at(const Leaf& leaf, double iso) {
 
 // The least radius of a primitive where its field is iso, in world lengths; 0 or less where it has no surface there.
 double least_radius(const Leaf& leaf, const Tape& tape, double iso) {
-  const ShapeSize& s = leaf.size;
-  double least = s[0];
-  switch (leaf.shape) {
-    case Shape::kSphere:
-      break;
-    case Shape::kSegment:
-      // One end's sphere may contain the other.
-      least = std::abs(s[1] - s[2]) < s[0] ? std::min(s[1], s[2]) : std::max(s[1], s[2]);
-      break;
-    case Shape::kCylinder:
-      least = std::min(s[0], s[1]);
-      break;
-    case Shape::kTorus:
-      least = s[1];
-      break;
-    case Shape::kBox:
-    case Shape::kEllipsoid:
-      least = std::min({s[0], s[1], s[2]});
-      break;
-  }
   // Operators that lead from one law to the other take other levels of what is below them.
-  if (leaf.law == tape.law) least += offset_at(leaf, iso);
-  return least / leaf.stretch;
+  return leaf.feature_size(leaf.law == tape.law ? offset_at(leaf, iso) : 0);
 }
 
 bool counts(const Leaf& leaf, const MeshRequest& request) {
   return !request.bounds || leaf.support.touches(*request.bounds);
-}
-
-// Roughly the area of a primitive's surface, in the world.
-double rough_area(const Leaf& leaf) {
-  constexpr double kPi = std::numbers::pi;
-  const ShapeSize& s = leaf.size;
-  double area = 0;
-  switch (leaf.shape) {
-    case Shape::kSphere:
-      area = 4 * kPi * s[0] * s[0];
-      break;
-    case Shape::kSegment: {
-      const double radius = std::max(s[1], s[2]);
-      area = 2 * kPi * radius * s[0] + 4 * kPi * radius * radius;
-      break;
-    }
-    case Shape::kBox:
-      area = 8 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
-      break;
-    case Shape::kCylinder:
-      area = 4 * kPi * s[1] * s[0] + 2 * kPi * s[1] * s[1];
-      break;
-    case Shape::kTorus:
-      area = 4 * kPi * kPi * s[0] * s[1];
-      break;
-    case Shape::kEllipsoid:
-      area = 4.0 / 3 * kPi * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
-      break;
-  }
-  const double scale = leaf.stretch == 1 ? 1 : leaf.growth;
-  return area * scale * scale;
 }
 
 double longest_edge(const Tape& tape, const MeshRequest& request) {
@@ -192,7 +137,7 @@ absl::StatusOr<bool> is_far_too_fine(const Tape& tape, const MeshRequest& reques
   // apart. The other one, of coarse lattices, is low where primitives are inside of others.
   double area = 0;
   for (const Leaf& leaf : tape.leaves) {
-    if (counts(leaf, request)) area += rough_area(leaf);
+    if (counts(leaf, request)) area += leaf.area();
   }
   const double brick = blobtree::kBrickCells * request.cell_size;
   if (area <= kFar * static_cast<double>(max_bricks) * brick * brick) return false;

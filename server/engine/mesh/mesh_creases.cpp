@@ -1,8 +1,6 @@
 #include "engine/mesh/mesh_creases.h"
 
 #include <algorithm>
-#include <array>
-#include <numbers>
 
 #include "engine/mesh/mesh_lattice.h"
 #include "operators/operator.h"
@@ -11,47 +9,31 @@ namespace isofield::engine {
 namespace {
 
 using blobtree::Instruction;
-using blobtree::Operand;
-using blobtree::Operator;
+using operators::Opcode;
 
-// At 45 degrees a blend is the sharp union; from here on it is sharper than cells show.
-constexpr double kSharp = 44 * std::numbers::pi / 180;
-
-bool is_sharp(const operators::Opening& opening) {
-  for (int degrees = 30; degrees <= 150; degrees += 5) {
-    if (opening.theta(degrees * std::numbers::pi / 180).v > kSharp) return true;
-  }
-  return false;
-}
-
-bool may_crease(const blobtree::Operation& operation) {
-  switch (operation.op) {
-    case Operator::kPush:
-    case Operator::kSum:
-    case Operator::kLinear:
-    case Operator::kSoften:
-      return false;
-    case Operator::kGradient:
-      return is_sharp(operation.what->opening);
-    default:
-      return true;
-  }
-}
-
-bool may_crease(Operand leaf) {
-  return leaf == Operand::kBox || leaf == Operand::kCylinder;
-}
-
-// The tape's operations that make creases, by their places.
+// Whether each of the tape's operations may crease, by their places.
 std::vector<char> creasing_operations(const blobtree::Tape& tape) {
   std::vector<char> found;
   found.reserve(tape.operations.size());
   for (std::size_t i = 0; i < tape.operations.size(); ++i) {
-    const bool is_repeated = i > 0 && tape.operations[i].what == tape.operations[i - 1].what &&
-                             tape.operations[i].op == tape.operations[i - 1].op;
-    found.push_back(is_repeated ? found.back() : may_crease(tape.operations[i]));
+    const auto& what = tape.operations[i].what;
+    const bool is_repeated = i > 0 && what == tape.operations[i - 1].what;
+    found.push_back(is_repeated ? found.back() : what && what->may_crease());
   }
   return found;
+}
+
+// The leaves' operands of which some have edges.
+blobtree::CodeSet<blobtree::Operand> edged_operands(const blobtree::Tape& tape) {
+  blobtree::CodeSet<blobtree::Operand> found;
+  for (const blobtree::Leaf& leaf : tape.leaves) {
+    if (leaf.may_crease()) found.add(leaf.operand);
+  }
+  return found;
+}
+
+bool is_conversion(Opcode op) {
+  return operators::traits_of(op).applies == operators::Applies::kOne;
 }
 
 }  // namespace
@@ -59,14 +41,11 @@ std::vector<char> creasing_operations(const blobtree::Tape& tape) {
 std::vector<std::uint32_t> brick_kinds(const blobtree::Tape& tape, const blobtree::BrickList& list,
                                        const std::vector<std::uint32_t>& neighbours) {
   const std::vector<char> creasing = creasing_operations(tape);
+  const blobtree::CodeSet<blobtree::Operand> edged = edged_operands(tape);
   const auto creases = [&](const Instruction& i) {
-    if (may_crease(i.operand()) || i.mode().form != operators::Form::kUnion) return true;
-    switch (i.op()) {
-      case Operator::kGradient:
-        return creasing[tape.record_owners[i.operation]] != 0;
-      default:
-        return may_crease(blobtree::Operation{.op = i.op()});
-    }
+    if (edged.has(i.operand()) || i.mode().form != operators::Form::kUnion) return true;
+    if (i.op() == Opcode::kPush || is_conversion(i.op())) return false;
+    return creasing[tape.record_owners[i.operation]] != 0;
   };
   std::vector<std::uint32_t> kinds(list.bricks.size(), 0);
   for (std::size_t b = 0; b < list.bricks.size(); ++b) {

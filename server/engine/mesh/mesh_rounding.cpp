@@ -6,7 +6,7 @@
 namespace isofield::engine {
 namespace {
 
-using blobtree::Operator;
+using operators::Opcode;
 
 // Half of the last place of float32, as a part of the number.
 constexpr double kUnit = 0x1p-24;
@@ -30,6 +30,12 @@ double reach_of(const blobtree::Box& box) {
                    std::abs(box.max.y), std::abs(box.max.z)});
 }
 
+// The largest coordinate that the leaf's field is computed from.
+double reach_of(const blobtree::Leaf& leaf) {
+  const blobtree::dvec3& anchor = leaf.place.anchor;
+  return reach_of(leaf.support.is_bounded() ? leaf.support : blobtree::Box{anchor, anchor});
+}
+
 double slope_of(const blobtree::Leaf& leaf) {
   return leaf.stretch * (leaf.law == operators::Law::kSigned ? leaf.per_distance : kSteepest / leaf.range);
 }
@@ -47,8 +53,8 @@ double most_slope_of(const blobtree::Tape& tape) {
   for (const blobtree::Leaf& leaf : tape.leaves) slope = std::max(slope, slope_of(leaf));
   double converted = 1;
   for (const blobtree::Operation& o : tape.operations) {
-    if (o.op == Operator::kLinear) converted = std::max(converted, std::abs(o.factor));
-    if (o.op == Operator::kSoften) converted = std::max(converted, kSteepest / o.range);
+    if (o.op == Opcode::kLinear) converted = std::max(converted, std::abs(o.factor));
+    if (o.op == Opcode::kSoften) converted = std::max(converted, kSteepest / o.range);
   }
   return slope * converted;
 }
@@ -57,7 +63,7 @@ double most_slope_of(const blobtree::Tape& tape) {
 double value_of(const blobtree::Tape& tape, double iso) {
   double value = tape.law == operators::Law::kSigned ? std::abs(iso) : 1;
   for (const blobtree::Operation& o : tape.operations) {
-    if (o.op == Operator::kLinear) value = std::max(value, std::abs(o.offset));
+    if (o.op == Opcode::kLinear) value = std::max(value, std::abs(o.offset));
   }
   return value;
 }
@@ -68,7 +74,7 @@ MeshRounding mesh_rounding(const blobtree::Tape& tape, const blobtree::Lattice& 
   const double cell = lattice.spacing.x;
   const blobtree::dvec3 size{lattice.cells[0] * cell, lattice.cells[1] * cell, lattice.cells[2] * cell};
   double reach = reach_of({lattice.origin, lattice.origin + size});
-  for (const blobtree::Leaf& leaf : tape.leaves) reach = std::max(reach, reach_of(leaf.support));
+  for (const blobtree::Leaf& leaf : tape.leaves) reach = std::max(reach, reach_of(leaf));
   MeshRounding rounding;
   rounding.length = std::min(kRoundings * kUnit * stepped(reach), kMostShift * cell / kShiftPerLength);
   rounding.value = kValueRounding * value_of(tape, iso);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/status_macros.h"
-#include "blobtree/primitives/leaf_placer.h"
 #include "engine/mesh/mesh_lattice.h"
 #include "engine/mesh/mesh_rounding.h"
 
@@ -28,7 +27,7 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 bool same_record(const Leaf& leaf, const std::vector<Float4>& a, const std::vector<Float4>& b) {
-  const std::size_t size = blobtree::leaf_record_size(leaf.operand) * sizeof(Float4);
+  const std::size_t size = blobtree::record_size(leaf.operand) * sizeof(Float4);
   return std::memcmp(&a[leaf.record], &b[leaf.record], size) == 0;
 }
 

@@ -81,26 +81,29 @@ absl::Status OperatorEvaluator::evaluate(const std::shared_ptr<const operators::
   if (steering == Steering::kAlpha && op->form == operators::Form::kDifference) {
     // A difference turns its first operand inside out, and its gradient round.
     auto turned = std::make_shared<operators::Operator>(*op);
-    turned->opening = op->opening.turned();
+    std::visit(
+        []<class K>(K& kind) {
+          if constexpr (operators::IsSteered<K>) kind.opening = kind.opening.turned();
+        },
+        turned->parameters);
     steered = std::move(turned);
   }
+  const bool by_angle = op->has_angular_ranges();
   const auto k = static_cast<std::uint32_t>(operands);
   const std::uint32_t is_steered = steering != Steering::kNone ? 1 : 0;
-  const Constants constants{.operands = k, .columns = k + is_steered + (op->by_angle ? 2u : 0u), .steering = steering};
+  const Constants constants{.operands = k, .columns = k + is_steered + (by_angle ? 2u : 0u), .steering = steering};
   std::vector<float> rows;
-  if (op->by_angle || steering == Steering::kTheta) {
-    rows = device_rows(arguments, operands, op->by_angle);
+  if (by_angle || steering == Steering::kTheta) {
+    rows = device_rows(arguments, operands, by_angle);
     arguments = rows;
   }
-  return run(device_, kernels_, volumes_, blobtree::operator_tape(steered, operators::law_of(op->kind), k), constants,
+  return run(device_, kernels_, volumes_, blobtree::operator_tape(steered, op->law(), k), constants,
              1 + k + is_steered, arguments, results);
 }
 
 absl::Status OperatorEvaluator::evaluate_opening(const operators::Opening& opening, std::span<const float> alphas,
                                                  std::span<float> results) {
-  operators::Operator op;
-  op.kind = operators::Kind::kGradient;
-  op.opening = opening;
+  const operators::Operator op(operators::Gradient{.opening = opening});
   return run(device_, kernels_, volumes_,
              blobtree::operator_tape(std::make_shared<const operators::Operator>(op), operators::Law::kPositive, 2),
              {.columns = 1, .is_opening = 1}, 2, alphas, results);

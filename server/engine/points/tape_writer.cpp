@@ -2,7 +2,6 @@
 
 #include <absl/strings/str_cat.h>
 
-#include <array>
 #include <bit>
 #include <vector>
 
@@ -13,12 +12,20 @@ namespace {
 
 using blobtree::Instruction;
 using blobtree::Operand;
-using blobtree::Operator;
+using operators::Opcode;
 
 // A number as GLSL's uint.
 template <class T>
 std::string literal(T number) {
   return absl::StrCat(static_cast<std::uint32_t>(number), "u");
+}
+
+// The name of a specialisation constant.
+std::string name_of(std::size_t constant) {
+  if (constant < kKernelConstantNames.size()) return kKernelConstantNames[constant];
+  const std::size_t word = constant - kKernelConstantNames.size();
+  return word < kOperandWords ? absl::StrCat(kOperandWordName, word)
+                              : absl::StrCat(kOpcodeWordName, word - kOperandWords);
 }
 
 class Writer {
@@ -32,9 +39,9 @@ class Writer {
 
  private:
   void write(const Instruction& i) {
-    if (i.op() == Operator::kBtk || i.op() == Operator::kSuperelliptic) return write_many(i);
+    if (operators::traits_of(i.op()).applies == operators::Applies::kMany) return write_many(i);
     const std::string operand = right_operand(i);
-    if (i.op() == Operator::kPush) {
+    if (i.op() == Opcode::kPush) {
       // The first one pushes nothing.
       if (!accumulator_.empty()) waiting_.push_back(accumulator_);
       accumulator_ = operand;
@@ -58,7 +65,7 @@ class Writer {
   void write_many(const Instruction& i) {
     std::string operands = accumulator_;
     const int count = std::popcount(i.leaf);
-    for (int k = 1; k < kMostOperands; ++k) {
+    for (int k = 1; k < static_cast<int>(operators::kMaxOperands); ++k) {
       absl::StrAppend(&operands, ", ", k < count ? pop() : accumulator_);
     }
     accumulator_ =
@@ -78,8 +85,6 @@ class Writer {
     return top;
   }
 
-  static constexpr int kMostOperands = 16;  // MAX_OPERANDS of shaders/lib/ranged_blends.glsl
-
   std::string text_, accumulator_;
   std::vector<std::string> waiting_;
   int names_ = 0;
@@ -93,12 +98,10 @@ bool is_writable(const blobtree::Tape& tape) {
 }
 
 std::string write_definitions(const KernelKind& kind, bool with_gradient) {
-  constexpr std::array kNames{"OPERAND_SET", "OPERATOR_SET", "STACK_DEPTH", "TAPE_LENGTH",
-                              "ARITY",       "VOLUME_SET",   "UNIFORM_SET"};
   std::string text = with_gradient ? "#define WITH_GRADIENT\n" : "";
-  const auto constants = kind.constants();
+  const KernelConstants constants = kind.constants();
   for (std::size_t i = 0; i < constants.size(); ++i) {
-    absl::StrAppend(&text, "#define ", kNames[i], " ", literal(constants[i]), "\n");
+    absl::StrAppend(&text, "#define ", name_of(i), " ", literal(constants[i]), "\n");
   }
   return text;
 }

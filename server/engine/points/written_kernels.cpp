@@ -24,11 +24,8 @@ constexpr int kNiceness = 10;
 // Of an instruction that is not light: 7 against 120 M points/s of eight spheres.
 constexpr std::size_t kHeavyWork = 16;
 
-// That cost less than a leaf.
-constexpr bool is_light(blobtree::Operator op) {
-  using enum blobtree::Operator;
-  return op == kPush || op == kSum || op == kMax || op == kMin || op == kSubtract || op == kSubtractFrom ||
-         op == kLinear || op == kSoften;
+constexpr bool is_light(operators::Opcode op) {
+  return operators::traits_of(op).weight == operators::Weight::kIsLight;
 }
 
 bool all_light(const blobtree::Tape& tape) {

@@ -18,7 +18,6 @@
 namespace isofield::engine {
 namespace {
 
-using operators::Kind;
 using operators::Operator;
 using operators::Silhouette;
 
@@ -35,7 +34,7 @@ std::vector<Angle> angles(int size) {
 }
 
 // The buffer holds nodes when the session has run; `inputs` must live until then.
-absl::StatusOr<gpu::Buffer> fill_gradient(Session& session, KernelCache& kernels, const Operator& op,
+absl::StatusOr<gpu::Buffer> fill_gradient(Session& session, KernelCache& kernels, const operators::Gradient& op,
                                           std::vector<gpu::Buffer>& inputs) {
   const auto size = static_cast<std::uint32_t>(op.volume);
   const bool is_smooth = op.silhouette.kind == Silhouette::Kind::kSmooth;
@@ -73,6 +72,11 @@ std::size_t digest(const operators::SampledVolume& samples) {
       std::string_view(reinterpret_cast<const char*>(samples.values.data()), samples.values.size() * sizeof(float)));
 }
 
+const operators::SampledVolume* samples_of(const Operator& op) {
+  const auto* sampled = op.as<operators::Sampled>();
+  return sampled ? sampled->samples.get() : nullptr;
+}
+
 }  // namespace
 
 VolumeLease VolumeCache::Place::lease() {
@@ -81,15 +85,15 @@ VolumeLease VolumeCache::Place::lease() {
 }
 
 absl::StatusOr<VolumeCache::Key> VolumeCache::key_of(const Operator& op) {
-  if (op.kind == Kind::kGradient) {
+  if (const auto* gradient = op.as<operators::Gradient>()) {
     for (const int size : {16, 32, 64, 128}) {
-      if (op.volume == size) return Key{op.kind, op.silhouette, size, 0};
+      if (gradient->volume == size) return Key{op.kind(), gradient->silhouette, size, 0};
     }
-    return absl::InvalidArgumentError(absl::StrCat("a volume of ", op.volume, " samples a side"));
+    return absl::InvalidArgumentError(absl::StrCat("a volume of ", gradient->volume, " samples a side"));
   }
-  if (op.kind == Kind::kSampled && op.samples && op.samples->size >= 2 && op.samples->size <= 128) {
-    const auto n = static_cast<std::size_t>(op.samples->size);
-    if (op.samples->values.size() == n * n * n) return Key{op.kind, {}, op.samples->size, digest(*op.samples)};
+  if (const operators::SampledVolume* samples = samples_of(op); samples && samples->size >= 2 && samples->size <= 128) {
+    const auto n = static_cast<std::size_t>(samples->size);
+    if (samples->values.size() == n * n * n) return Key{op.kind(), {}, samples->size, digest(*samples)};
   }
   return absl::InvalidArgumentError("an operator without a volume");
 }
@@ -106,12 +110,13 @@ std::shared_ptr<VolumeCache::Place> VolumeCache::place_of(const Key& key) {
 absl::StatusOr<VolumeLease> VolumeCache::build(const Operator& op) {
   std::vector<gpu::Buffer> inputs;  // outlive the session
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-  const bool is_sampled = op.kind == Kind::kSampled;
-  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer nodes, is_sampled ? fill_sampled(session, kernels_, *op.samples, inputs)
-                                                          : fill_gradient(session, kernels_, op, inputs));
+  const auto* sampled = op.as<operators::Sampled>();
+  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer nodes,
+                            sampled ? fill_sampled(session, kernels_, *sampled->samples, inputs)
+                                    : fill_gradient(session, kernels_, *op.as<operators::Gradient>(), inputs));
   ISOFIELD_RETURN_IF_ERROR(session.run());
   return VolumeLease(
-      new Volume(std::move(nodes), is_sampled ? op.samples->size : op.volume, is_sampled ? op.samples : nullptr));
+      new Volume(std::move(nodes), op.volume_key().size, sampled ? sampled->samples : nullptr));
 }
 
 absl::StatusOr<VolumeLease> VolumeCache::get(const Operator& op) {
@@ -119,8 +124,9 @@ absl::StatusOr<VolumeLease> VolumeCache::get(const Operator& op) {
   const std::shared_ptr<Place> place = place_of(key);
   const std::lock_guard lock(place->building);
   if (VolumeLease volume = place->lease()) {
+    const operators::SampledVolume* samples = samples_of(op);
     const bool is_same =
-        op.kind != Kind::kSampled || op.samples == volume->samples_ || op.samples->values == volume->samples_->values;
+        !samples || samples == volume->samples_.get() || samples->values == volume->samples_->values;
     // Other samples of the same digest: their volume is not shared.
     return is_same ? absl::StatusOr<VolumeLease>(volume) : build(op);
   }

@@ -43,7 +43,7 @@ class VolumeCache {
  public:
   VolumeCache(gpu::Device& device, KernelCache& kernels) : device_(device), kernels_(kernels) {}
 
-  // Of an operator kGradient with 16, 32, 64 or 128 samples a side, or kSampled. INVALID_ARGUMENT: any other.
+  // Of a Gradient with 16, 32, 64 or 128 samples a side, or of a Sampled. INVALID_ARGUMENT: any other.
   // RESOURCE_EXHAUSTED: no memory; a later call tries again.
   absl::StatusOr<VolumeLease> get(const operators::Operator& op);
 

@@ -1,0 +1,47 @@
+// Boxes with axis-parallel edges.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/limits.h"
+#include "blobtree/geometry/vec3.h"
+
+namespace isofield::blobtree {
+
+// Empty until something is added.
+struct Box {
+  dvec3 min{std::numeric_limits<double>::infinity()};
+  dvec3 max{-std::numeric_limits<double>::infinity()};
+
+  // Holds everything that a scene may hold.
+  static Box everywhere() { return {dvec3(-base::kMaxCoordinate), dvec3(base::kMaxCoordinate)}; }
+
+  // Whether it ends on all sides; of what has no end a box has the limits of coordinates.
+  bool is_bounded() const {
+    const auto ends = [](double x) { return std::abs(x) < base::kMaxCoordinate; };
+    return ends(min.x) && ends(min.y) && ends(min.z) && ends(max.x) && ends(max.y) && ends(max.z);
+  }
+  bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+  void add(const Box& other) {
+    min = {std::min(min.x, other.min.x), std::min(min.y, other.min.y), std::min(min.z, other.min.z)};
+    max = {std::max(max.x, other.max.x), std::max(max.y, other.max.y), std::max(max.z, other.max.z)};
+  }
+  bool operator==(const Box&) const = default;
+  bool touches(const Box& other) const {
+    return min.x <= other.max.x && other.min.x <= max.x && min.y <= other.max.y && other.min.y <= max.y &&
+           min.z <= other.max.z && other.min.z <= max.z;
+  }
+};
+
+// A box by its centre.
+struct CentredBox {
+  explicit CentredBox(const Box& box)
+      : centre((box.min + box.max) * 0.5), half((box.max - box.min) * 0.5), radius(length(half)) {}
+
+  dvec3 centre, half;
+  double radius;  // of the ball that holds it
+};
+
+}  // namespace isofield::blobtree

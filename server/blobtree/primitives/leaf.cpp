@@ -1,0 +1,135 @@
+#include "blobtree/primitives/leaf.h"
+
+#include <absl/strings/str_cat.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "blobtree/primitives/falloff.h"
+
+namespace isofield::blobtree {
+namespace {
+
+// Computed stretches are within this part of the exact ones; those of a turn, for example, are not quite 1.
+constexpr double kStretchRounding = 1e-9;
+// What float32 evaluation of a length may differ from exact arithmetic, relative to the coordinates it is computed
+// from.
+constexpr double kLengthRoom = 1e-6;
+
+// Room for the rounding of coordinates and lengths to float32 on the device.
+void pad(Box& box) {
+  const auto grow = [](double& low, double& high) {
+    const double room = 1e-6 * std::max(std::abs(low), std::abs(high));
+    low -= room;
+    high += room;
+  };
+  grow(box.min.x, box.max.x);
+  grow(box.min.y, box.max.y);
+  grow(box.min.z, box.max.z);
+}
+
+absl::Status refuse_place(const std::string& path, const Affine& place, const Affine::Stretch& stretch,
+                          bool is_signed) {
+  using base::kMaxCoordinate, base::kMinLength;
+  std::string text =
+      absl::StrCat(path, ": the transforms above scale it by ", stretch.least, " to ", stretch.most,
+                   " and place it at (", place.offset.x, ", ", place.offset.y, ", ", place.offset.z,
+                   "): expected lengths within [", kMinLength, ", ", kMaxCoordinate, "], coordinates of at most ",
+                   kMaxCoordinate, " and a condition number of at most ", kMaxCondition);
+  if (is_signed) {
+    absl::StrAppend(&text, "; of a SIGNED field, which is the distance over the scale, a scale of at least ",
+                    kMinLength);
+  }
+  return absl::InvalidArgumentError(text);
+}
+
+}  // namespace
+
+double Leaf::distance(const dvec3& p) const {
+  const dvec3 q = place.to_local.vector(p - place.anchor);
+  return std::visit([&](const auto& s) { return s.distance(q); }, shape);
+}
+
+double Leaf::feature_size(double offset) const {
+  return (std::visit([](const auto& s) { return s.least_radius(); }, shape) + offset) / stretch;
+}
+
+double Leaf::area() const {
+  const double scale = stretch == 1 ? 1 : growth;
+  return std::visit([](const auto& s) { return s.area(); }, shape) * scale * scale;
+}
+
+absl::StatusOr<Leaf> place_leaf(const Primitive& primitive, const Affine& to_world, const std::string& path) {
+  Affine place = to_world.after(primitive.frame);
+  Leaf leaf;
+  leaf.shape = primitive.shape;
+  leaf.range = primitive.range;
+  leaf.law = primitive.law;
+  const Affine::Stretch stretch = place.stretch();
+  leaf.place.is_rigid = stretch.most - stretch.least <= kStretchRounding * stretch.most;
+  if (leaf.place.is_rigid) {
+    // Distances scale with the map: scale the lengths instead and keep the placement rigid.
+    const double factor = stretch.most;
+    leaf.shape = std::visit([&](const auto& s) -> Shape { return s.scaled(factor); }, leaf.shape);
+    leaf.range *= factor;
+    leaf.per_distance = 1 / factor;
+    for (dvec3& row : place.linear) row = row * (1 / factor);
+  }
+  const std::optional<Affine> inverse = place.inverse();
+  const auto near_enough = [](double x) { return std::abs(x) <= base::kMaxCoordinate; };
+  const double longest = std::visit([](const auto& s) { return s.largest(); }, primitive.shape);
+  const double largest = std::max(longest, primitive.range);
+  // A signed field is the distance over the scale: of it a length of 1 tells how large it may be.
+  const bool is_signed = primitive.law == operators::Law::kSigned;
+  const double least_length = is_signed ? 1 : primitive.range;
+  // Maps that each are well conditioned may multiply to one that is not, and whose least stretch is lost in rounding.
+  if (!inverse || !(stretch.least * (kMaxCondition * 1.001) >= stretch.most) ||
+      !(least_length * stretch.least >= base::kMinLength * (1 - kStretchRounding)) ||
+      !near_enough(largest * stretch.most) || !near_enough(place.offset.x) || !near_enough(place.offset.y) ||
+      !near_enough(place.offset.z)) {
+    return refuse_place(path, place, stretch, is_signed);
+  }
+  leaf.place.anchor = place.offset;
+  leaf.place.to_local = {inverse->linear, {}};
+  leaf.place.slope = is_signed ? f32(-leaf.per_distance) : f32((1 - kR0) / leaf.range);
+  leaf.stretch = leaf.place.is_rigid ? 1 : 1 / stretch.least;
+  leaf.growth = stretch.most * std::visit([](const auto& s) { return s.growth(); }, primitive.shape);
+  leaf.operand = std::visit([&](const auto& s) { return s.operand(leaf.place.is_rigid); }, leaf.shape);
+  leaf.support = std::visit([&](const auto& s) { return s.support(place, leaf.range); }, leaf.shape);
+  pad(leaf.support);
+  return leaf;
+}
+
+Interval distance_bounds(const Leaf& leaf, const CentredBox& box) {
+  const dvec3 c = abs(box.centre);
+  const double size = std::max({c.x, c.y, c.z, box.radius}) * leaf.stretch;
+  return std::visit(
+      [&]<class S>(const S& shape) {
+        const double room = kLengthRoom * (size + leaf.range + shape.own_lengths());
+        std::optional<Interval> exact;
+        if constexpr (requires { shape.box_bounds(leaf.place, box); }) exact = shape.box_bounds(leaf.place, box);
+        if (!exact) {
+          const double d = leaf.distance(box.centre), reach = box.radius * leaf.stretch;
+          exact = {d - reach, d + reach};
+        }
+        return Interval{exact->lo - room, exact->hi + room};
+      },
+      leaf.shape);
+}
+
+Interval field_bounds(const Leaf& leaf, const CentredBox& box) {
+  const Interval d = distance_bounds(leaf, box);
+  if (leaf.law == operators::Law::kSigned) return {d.lo * leaf.per_distance, d.hi * leaf.per_distance};
+  if (d.lo >= leaf.range) return {0, 0};
+  return {std::max(soften(d.hi, leaf.range) - base::kValueRoom, 0.0), soften(d.lo, leaf.range) + base::kValueRoom};
+}
+
+bool vanishes(const Leaf& leaf, const Box& box) {
+  return !leaf.support.touches(box) || distance_bounds(leaf, CentredBox(box)).lo >= leaf.range;
+}
+
+void write_leaf(const Leaf& leaf, Float4* out) {
+  std::visit([&](const auto& s) { s.write(leaf.place, leaf.operand, out); }, leaf.shape);
+}
+
+}  // namespace isofield::blobtree

@@ -1,0 +1,57 @@
+#include "blobtree/primitives/sphere.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "blobtree/primitives/primitive.h"
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield::blobtree::shapes {
+
+Sphere Sphere::read(const v1::Sphere& message, FieldReader& in, Affine& frame) {
+  frame = Affine::translation(in.point("center", message.center()));
+  return {in.positive("radius", message.radius())};
+}
+
+Sphere Sphere::scaled(double factor) const {
+  return {radius * factor};
+}
+double Sphere::largest() const {
+  return radius;
+}
+double Sphere::own_lengths() const {
+  return radius;
+}
+double Sphere::least_radius() const {
+  return radius;
+}
+double Sphere::area() const {
+  return 4 * std::numbers::pi * radius * radius;
+}
+double Sphere::growth() const {
+  return 1;
+}
+
+blobtree::Box Sphere::support(const Affine& place, double range) const {
+  const double r = radius + range;
+  return ellipsoid_image(place, {r, r, r});
+}
+
+Operand Sphere::operand(bool is_rigid) const {
+  return is_rigid ? Operand::kSphere : Operand::kEllipsoid;
+}
+
+void Sphere::write(const Place& place, Operand operand, Float4* out) const {
+  if (operand == Operand::kEllipsoid) return write_rows(place, radius, 0, 0, out);
+  out[0] = {f32(place.anchor.x), f32(place.anchor.y), f32(place.anchor.z), place.slope};
+  out[1] = {f32(radius), 0, 0, 0};
+}
+
+std::optional<Interval> Sphere::box_bounds(const Place& place, const CentredBox& box) const {
+  if (!place.is_rigid) return std::nullopt;
+  const dvec3 v = abs(box.centre - place.anchor), n = v - box.half;
+  const dvec3 nearest{std::max(n.x, 0.0), std::max(n.y, 0.0), std::max(n.z, 0.0)};
+  return Interval{length(nearest) - radius, length(v + box.half) - radius};
+}
+
+}  // namespace isofield::blobtree::shapes

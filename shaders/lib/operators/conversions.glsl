@@ -1,0 +1,41 @@
+// What changes one field by itself: from one law to the other, and by the weight of a blend that one operand is left of.
+#ifndef CONVERSIONS_GLSL
+#define CONVERSIONS_GLSL
+
+#include "field.glsl"
+#include "parameters.glsl"
+
+// factor f + offset.
+Field linear(Field a, float factor, float offset) {
+  a.f = factor * a.f + offset;
+  a.d *= factor;
+#ifdef WITH_GRADIENT
+  a.g *= factor;
+  a.j *= factor;
+#endif
+  return a;
+}
+
+// w(clamp(R0 + slope f, 0, 1)) of a signed field.
+Field softened(Field a, float slope) {
+  float r = clamp(R0 + slope * a.f, 0.0, 1.0);
+  float v = 1.0 - r * r;
+  Field b = zero_field();
+  b.f = v * v * v;
+  float w1 = -6.0 * r * v * v * slope;
+  b.d = w1 * a.d;
+#ifdef WITH_GRADIENT
+  if (is_steered()) {
+    float w2 = r > 0.0 ? -6.0 * v * (1.0 - 5.0 * r * r) * slope * slope : 0.0;
+    b.g = w1 * a.g;
+    b.j = w1 * a.j + w2 * outerProduct(a.d, a.g);
+  }
+#endif
+  return b;
+}
+
+Field apply_linear(Field a, uint record) { return linear(a, operation_at(record).x, operation_at(record).y); }
+
+Field apply_soften(Field a, uint record) { return softened(a, operation_at(record).x); }
+
+#endif
