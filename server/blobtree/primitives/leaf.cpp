@@ -16,16 +16,15 @@ constexpr double kStretchRounding = 1e-9;
 // from.
 constexpr double kLengthRoom = 1e-6;
 
-// Room for the rounding of coordinates and lengths to float32 on the device.
+// Room for the rounding of coordinates and lengths to float32 on the device. Of an axis without an end on one side the
+// other side's end counts alone.
 void pad(Box& box) {
-  const auto grow = [](double& low, double& high) {
-    const double room = 1e-6 * std::max(std::abs(low), std::abs(high));
-    low -= room;
-    high += room;
-  };
-  grow(box.min.x, box.max.x);
-  grow(box.min.y, box.max.y);
-  grow(box.min.z, box.max.z);
+  const auto size = [](double end) { return std::abs(end) < base::kMaxCoordinate ? std::abs(end) : 0; };
+  for (int axis = 0; axis < 3; ++axis) {
+    const double room = 1e-6 * std::max(size(box.min[axis]), size(box.max[axis]));
+    box.min[axis] -= room;
+    box.max[axis] += room;
+  }
 }
 
 absl::Status refuse_place(const std::string& path, const Affine& place, const Affine::Stretch& stretch,

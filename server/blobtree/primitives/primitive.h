@@ -10,6 +10,7 @@
 #include "blobtree/primitives/box.h"
 #include "blobtree/primitives/cylinder.h"
 #include "blobtree/primitives/ellipsoid.h"
+#include "blobtree/primitives/half_space.h"
 #include "blobtree/primitives/kind.h"
 #include "blobtree/primitives/segment.h"
 #include "blobtree/primitives/sphere.h"
@@ -29,7 +30,8 @@ namespace isofield::blobtree {
   ROW(Box, box)                  \
   ROW(Cylinder, cylinder)        \
   ROW(Torus, torus)              \
-  ROW(Ellipsoid, ellipsoid)
+  ROW(Ellipsoid, ellipsoid)      \
+  ROW(HalfSpace, half_space)
 
 // Everything that an instruction may have as its right operand and that is a leaf: its name, the .glsl in
 // shaders/lib/primitives/ that holds its function NAME_field(p, record), and the vec4s of its record.
@@ -40,7 +42,8 @@ namespace isofield::blobtree {
   ROW(Cylinder, cylinder, cylinder, 4)   \
   ROW(Torus, torus, torus, 4)            \
   ROW(Ellipsoid, ellipsoid, sphere, 4)   \
-  ROW(AffineSegment, affine_segment, segment, 4)
+  ROW(AffineSegment, affine_segment, segment, 4) \
+  ROW(HalfSpace, half_space, half_space, 2)
 
 #define ISOFIELD_ENUMERATOR(Name, ...) k##Name,
 enum class Operand : std::uint8_t {

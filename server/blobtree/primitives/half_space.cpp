@@ -1,0 +1,66 @@
+#include "blobtree/primitives/half_space.h"
+
+#include <cmath>
+
+#include "blobtree/primitives/primitive.h"
+#include "isofield/v1/scene.pb.h"
+
+namespace isofield::blobtree::shapes {
+
+HalfSpace HalfSpace::read(const v1::HalfSpace& message, FieldReader& in, Affine& frame) {
+  const dvec3 point = in.point("point", message.point());
+  const dvec3 normal = in.direction("normal", message.normal(), {0, 0, 1});
+  if (in.status().ok()) frame = Affine::frame(point, normal);
+  return {};
+}
+
+HalfSpace HalfSpace::scaled(double) const {
+  return {};
+}
+double HalfSpace::largest() const {
+  return 0;
+}
+double HalfSpace::own_lengths() const {
+  return 0;
+}
+double HalfSpace::least_radius() const {
+  return base::kMaxCoordinate;
+}
+double HalfSpace::area() const {
+  return 0;
+}
+double HalfSpace::growth() const {
+  return 1;
+}
+
+blobtree::Box HalfSpace::support(const Affine& place, double range) const {
+  blobtree::Box box = blobtree::Box::everywhere();
+  const std::optional<Affine> inverse = place.inverse();
+  if (!inverse) return box;
+  // Where the plane faces along an axis, that axis ends at the plane, a range further out.
+  const dvec3& normal = inverse->linear[2];
+  for (int axis = 0; axis < 3; ++axis) {
+    if (normal[axis] == 0 || normal[(axis + 1) % 3] != 0 || normal[(axis + 2) % 3] != 0) continue;
+    const double end = place.offset[axis] + range / normal[axis];
+    (normal[axis] > 0 ? box.max : box.min)[axis] = end;
+  }
+  return box;
+}
+
+Operand HalfSpace::operand(bool) const {
+  return Operand::kHalfSpace;
+}
+
+void HalfSpace::write(const Place& place, Operand, Float4* out) const {
+  const dvec3& normal = place.to_local.linear[2];
+  out[0] = {f32(place.anchor.x), f32(place.anchor.y), f32(place.anchor.z), place.slope};
+  out[1] = {f32(normal.x), f32(normal.y), f32(normal.z), 0};
+}
+
+std::optional<Interval> HalfSpace::box_bounds(const Place& place, const CentredBox& box) const {
+  const dvec3& normal = place.to_local.linear[2];
+  const double d = dot(normal, box.centre - place.anchor), reach = dot(abs(normal), box.half);
+  return Interval{d - reach, d + reach};
+}
+
+}  // namespace isofield::blobtree::shapes
