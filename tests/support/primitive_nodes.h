@@ -29,6 +29,7 @@ inline const std::vector<PrimitiveNode>& primitive_nodes() {
       {"torus", R"("axis": [1, 2, 2], "major_radius": 0.8, "minor_radius": 0.25)"},
       {"ellipsoid", R"("center": [0, 0.1, 0], "semi_axes": [0.9, 0.6, 0.4])"},
       {"half_space", R"("point": [0.1, 0.2, -0.1], "normal": [1, -2, 2])", false},
+      {"cone", R"("a": [-0.4, 0.1, -0.5], "b": [0.5, 0, 0.4], "radius_a": 0.6, "radius_b": 0.2)"},
   };
   return kNodes;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "blobtree/primitives/leaf.h"
+#include "blobtree/scene/scene_reader.h"
 #include "isofield/v1/operator.pb.h"
 #include "isofield/v1/scene.pb.h"
 #include "support/primitive_nodes.h"
@@ -101,6 +102,52 @@ TEST(HalfSpace, BoundsWhatItIsIntersectedWith) {
   EXPECT_NEAR(cut.support.min.x, -1.5, 1e-5);
   const Tape both = compile_or_die(read_or_die(scene_of_nodes("[" + nodes + R"({"max": {"children": ["#0", "#1"]}}])")));
   EXPECT_FALSE(both.support.is_bounded());
+}
+
+// The distance of a point of the half-plane of (rho, z) to the outline of a trapezoid, segment by segment; negative inside.
+double distance_to_outline(const shapes::Cone& c, double rho, double z) {
+  const double h = c.half_length;
+  const double x[] = {0, c.radius_a, c.radius_b, 0}, y[] = {-h, -h, h, h};
+  double least = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const double dx = x[i + 1] - x[i], dy = y[i + 1] - y[i], square = dx * dx + dy * dy;
+    const double t = square > 0 ? std::clamp(((rho - x[i]) * dx + (z - y[i]) * dy) / square, 0.0, 1.0) : 0;
+    least = std::min(least, std::hypot(rho - x[i] - t * dx, z - y[i] - t * dy));
+  }
+  const double radius = c.radius_a + (c.radius_b - c.radius_a) * (z + h) / (2 * h);
+  return std::abs(z) < h && rho < radius ? -least : least;
+}
+
+TEST(Cone, IsAsFarAsItsOutline) {
+  Random random(12);
+  for (int n = 0; n < 200; ++n) {
+    shapes::Cone c;
+    c.half_length = random.number(0.05, 1);
+    c.radius_a = random.chance(0.2) ? 0 : random.number(0.05, 1);
+    c.radius_b = random.chance(0.2) && c.radius_a > 0 ? 0 : random.number(0.05, 1);
+    for (int i = 0; i < 500; ++i) {
+      const dvec3 q = random.point(-2, 2);
+      ASSERT_NEAR(c.distance(q), distance_to_outline(c, std::hypot(q.x, q.y), q.z), 1e-12)
+          << c.half_length << " " << c.radius_a << " " << c.radius_b << " at " << q.x << " " << q.y << " " << q.z;
+    }
+  }
+}
+
+TEST(Cone, HasATipWhereOneRadiusIsZero) {
+  const Leaf leaf = leaf_of(R"({"cone": {"a": [0, 0, 0], "b": [0, 0, 2], "radius_a": 1, "range": 0.5}})");
+  EXPECT_NEAR(leaf.distance({0, 0, 2.5}), 0.5, 1e-12);
+  EXPECT_NEAR(leaf.distance({0, 0, -0.25}), 0.25, 1e-12);
+  EXPECT_NEAR(leaf.distance({1, 0, 0}), 0, 1e-12);
+}
+
+TEST(Cone, IsRefusedWithoutARadiusOrALength) {
+  const auto refusal = [](const std::string& body) {
+    const auto scene = read_scene(scene_of_nodes(R"([{"name": "c", "cone": {)" + body + R"(, "range": 1}}])"));
+    return std::string(scene.status().message());
+  };
+  EXPECT_NE(refusal(R"("a": [0, 0, 0], "b": [0, 0, 1])").find("radius_a = 0"), std::string::npos);
+  EXPECT_NE(refusal(R"("a": [0, 0, 0], "b": [0, 0, 1], "radius_a": -1)").find("radius_a = -1"), std::string::npos);
+  EXPECT_NE(refusal(R"("a": [0, 0, 0], "b": [0, 0, 0], "radius_a": 1)").find("differs from a"), std::string::npos);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "blobtree/primitives/box.h"
+#include "blobtree/primitives/cone.h"
 #include "blobtree/primitives/cylinder.h"
 #include "blobtree/primitives/ellipsoid.h"
 #include "blobtree/primitives/half_space.h"
@@ -31,19 +32,21 @@ namespace isofield::blobtree {
   ROW(Cylinder, cylinder)        \
   ROW(Torus, torus)              \
   ROW(Ellipsoid, ellipsoid)      \
-  ROW(HalfSpace, half_space)
+  ROW(HalfSpace, half_space)     \
+  ROW(Cone, cone)
 
 // Everything that an instruction may have as its right operand and that is a leaf: its name, the .glsl in
 // shaders/lib/primitives/ that holds its function NAME_field(p, record), and the vec4s of its record.
-#define ISOFIELD_LEAVES(ROW)             \
-  ROW(Sphere, sphere, sphere, 2)         \
-  ROW(Segment, segment, segment, 3)      \
-  ROW(Box, box, box, 5)                  \
-  ROW(Cylinder, cylinder, cylinder, 4)   \
-  ROW(Torus, torus, torus, 4)            \
-  ROW(Ellipsoid, ellipsoid, sphere, 4)   \
+#define ISOFIELD_LEAVES(ROW)                     \
+  ROW(Sphere, sphere, sphere, 2)                 \
+  ROW(Segment, segment, segment, 3)              \
+  ROW(Box, box, box, 5)                          \
+  ROW(Cylinder, cylinder, cylinder, 4)           \
+  ROW(Torus, torus, torus, 4)                    \
+  ROW(Ellipsoid, ellipsoid, sphere, 4)           \
   ROW(AffineSegment, affine_segment, segment, 4) \
-  ROW(HalfSpace, half_space, half_space, 2)
+  ROW(HalfSpace, half_space, half_space, 2)      \
+  ROW(Cone, cone, cone, 5)
 
 #define ISOFIELD_ENUMERATOR(Name, ...) k##Name,
 enum class Operand : std::uint8_t {
