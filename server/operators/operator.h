@@ -23,6 +23,7 @@
 #include "operators/r_union.h"
 #include "operators/ricci.h"
 #include "operators/sampled.h"
+#include "operators/smooth_min.h"
 #include "operators/sum.h"
 #include "operators/superelliptic.h"
 
@@ -44,7 +45,8 @@ namespace isofield::operators {
   ROW(Superelliptic, superelliptic)  \
   ROW(Functional, functional)        \
   ROW(Bt2, bt2)                      \
-  ROW(Btk, btk)
+  ROW(Btk, btk)                      \
+  ROW(SmoothMin, smooth_min)
 // Those and the kinds that the catalogue alone holds; scenes use them by name.
 #define ISOFIELD_OPERATORS(ROW) \
   ISOFIELD_BLENDS(ROW)          \
@@ -70,6 +72,7 @@ namespace isofield::operators {
   ROW(Pasko, pasko, pasko, kTwo, kHasSeams, kIsHeavy)                              \
   ROW(Functional, functional, functional, kTwo, kNoSeam, kIsHeavy)                 \
   ROW(Bt2, bt2, bt2, kTwo, kHasSeams, kIsHeavy)                                    \
+  ROW(SmoothMin, smooth_min, smooth_min, kTwo, kNoSeam, kIsHeavy)                  \
   ROW(Superelliptic, superelliptic, superelliptic, kMany, kNoSeam, kIsHeavy)       \
   ROW(Btk, btk, btk, kMany, kNoSeam, kIsHeavy)                                     \
   ROW(Linear, linear, conversions, kOne, kNoSeam, kIsLight)                        \

@@ -86,6 +86,7 @@ std::vector<Case> cases() {
     add("functional", Functional{SampledCurve({0.0, 0.2, 0.5, 1.1}, {0.5, 0.4, 0.1, 0.0})});
     // Control points close together, the first beyond 0, and a last one that is not 0.
     add("functional of uneven points", Functional{SampledCurve({0.1, 0.1005, 0.4, 0.9}, {0.3, 0.2998, 0.2, 0.25})});
+    add("smooth_min", SmoothMin{0.6});
     const std::vector<Term> two{{0.8, 2, 1}, {1.1, 2, 1}};
     add("superelliptic", Superelliptic{2.5, two, {}});
     add("superelliptic by angle", Superelliptic{2.5, two, by_angle}, 2, 5e-5);
@@ -177,6 +178,7 @@ std::string operator_node(const Operator& op, const std::vector<std::string>& ch
     add("m1", number(k->term(0).weight));
     add("m2", number(k->term(1).weight));
   }
+  if (const auto* k = op.as<SmoothMin>()) add("radius", number(k->radius));
   if (op.is_joint()) add("ranges", list(terms_of(op), range));
   if (const auto* k = op.as<Superelliptic>()) add("exponent", number(k->exponent));
   if (const auto* k = op.as<Btk>()) {
