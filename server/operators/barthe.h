@@ -36,9 +36,9 @@ struct Barthe {
   }
   Interval bound(const Interval& a, const Interval& b) const;
 
-  // The level curve at level C lies around C (t2, t1) with semi-axes C (1 - t2) and C (1 - t1), where t = tan(theta). It
-  // is a quadratic in C, written in what C is above the greater field, so that nothing cancels where the lines are close
-  // to each other.
+  // The level curve at level C lies around C (t2, t1) with semi-axes C (1 - t2) and C (1 - t1), where t = tan(theta).
+  // It is a quadratic in C, written in what C is above the greater field, so that nothing cancels where the lines are
+  // close to each other.
   template <class T>
   static Binary<T> by_tangents(const T& f1, const T& f2, double t1, double t2);
 };

@@ -25,10 +25,10 @@ Bt2 Bt2::read(const v1::Bt2& m, base::FieldReader& in) {
   const double r1 = in.positive("r1", m.r1()), r2 = in.positive("r2", m.r2());
   op.terms[0] = {r1, 2, weight("m1", m.has_m1(), m.m1())};
   op.terms[1] = {r2, 2, weight("m2", m.has_m2(), m.m2())};
-  op.conic = in.number("p", m.p(), -kMostTightness * r1 * r2, (1 - kLeastTightness) * r1 * r2,
-                       absl::StrCat("a number below r1 r2 = ", r1 * r2, " by at least ", kLeastTightness,
-                                    " of it, and at least ", -kMostTightness,
-                                    " times it: float32 does not tell blends beyond from the union"));
+  op.conic = in.number(
+      "p", m.p(), -kMostTightness * r1 * r2, (1 - kLeastTightness) * r1 * r2,
+      absl::StrCat("a number below r1 r2 = ", r1 * r2, " by at least ", kLeastTightness, " of it, and at least ",
+                   -kMostTightness, " times it: float32 does not tell blends beyond from the union"));
   op.elimination = read_bulge_elimination(m.eliminate_bulge(), m.omega(), in);
   return op;
 }
@@ -59,8 +59,7 @@ double Bt2::most_weight_of(std::size_t operand) const {
 }
 
 Spread Bt2::reached(std::size_t operand) const {
-  return {.reach = term(operand).range * elimination.most_reach(),
-          .times = most_weight_of(operand)};
+  return {.reach = term(operand).range * elimination.most_reach(), .times = most_weight_of(operand)};
 }
 
 Spread Bt2::kept(std::size_t operand) const {

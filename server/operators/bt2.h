@@ -1,5 +1,5 @@
-// The conic blend of two signed fields with individual ranges, [H] eq. 4: the root h of H(x_1 - m_1 h, x_2 - m_2 h) = 0, so
-// that the zero set does not depend on the weights m_i.
+// The conic blend of two signed fields with individual ranges, [H] eq. 4: the root h of H(x_1 - m_1 h, x_2 - m_2 h) =
+// 0, so that the zero set does not depend on the weights m_i.
 #pragma once
 
 #include <array>
@@ -61,9 +61,9 @@ struct Bt2 {
   // Returns the operand, 0 or 1, that alone makes the result, over its weight; or -1 where both may.
   int lone_operand(const Interval& a, const Interval& b) const;
 
-  // A form without cancellation. With X_i = x_i / m_i and R_i = r_i / m_i it is the blend of weights 1; of p it needs only
-  // the tightness, so that a conic keeps its shape where the ranges follow an angle. The result depends on where X1 - X2
-  // lies between -R2 and R1, beyond which one operand makes it alone: at s within ]0, 1[. There q1 + q2 = 1,
+  // A form without cancellation. With X_i = x_i / m_i and R_i = r_i / m_i it is the blend of weights 1; of p it needs
+  // only the tightness, so that a conic keeps its shape where the ranges follow an angle. The result depends on where
+  // X1 - X2 lies between -R2 and R1, beyond which one operand makes it alone: at s within ]0, 1[. There q1 + q2 = 1,
   // off = q1 - q2, and rho is the root of the quadratic's discriminant over what it is at p = r1 r2.
   template <class T>
   static Binary<T> blend(const T& x1, const T& x2, const Reach<T>& reach1, const Reach<T>& reach2, double tightness);

@@ -74,8 +74,7 @@ double Btk::most_weight_of(std::size_t operand) const {
 }
 
 Spread Btk::reached(std::size_t operand) const {
-  return {.reach = term(operand).range * elimination.most_reach(),
-          .times = most_weight_of(operand)};
+  return {.reach = term(operand).range * elimination.most_reach(), .times = most_weight_of(operand)};
 }
 
 Spread Btk::kept(std::size_t operand) const {

@@ -56,8 +56,8 @@ struct Btk {
   // The most that an operand's weight becomes, whatever the gradients.
   double most_weight_of(std::size_t operand) const;
 
-  // The sum is convex and increasing in h and at least 1 at min x_i / m_i, so Newton's method from there falls to the root
-  // and never beyond it: no bracket is needed (the paper uses Regula Falsi). `powers` are p_i > 1.
+  // The sum is convex and increasing in h and at least 1 at min x_i / m_i, so Newton's method from there falls to the
+  // root and never beyond it: no bracket is needed (the paper uses Regula Falsi). `powers` are p_i > 1.
   template <class T>
   static Joint<T> root(const std::vector<T>& x, const std::vector<Reach<T>>& reach, const std::vector<double>& powers);
 };

@@ -1,5 +1,5 @@
-// Bulge elimination, [H] section 5: ranges and weights of two operands of signed fields that follow the angle between their
-// gradients, so that aligned surfaces do not bulge.
+// Bulge elimination, [H] section 5: ranges and weights of two operands of signed fields that follow the angle between
+// their gradients, so that aligned surfaces do not bulge.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,8 @@ struct BulgeElimination {
 };
 BulgeElimination read_bulge_elimination(bool is_on, double omega, base::FieldReader& in);
 
-// Gradients' lengths are taken to differ by at most this factor, so that a weight is never more than so many times another.
+// Gradients' lengths are taken to differ by at most this factor, so that a weight is never more than so many times
+// another.
 inline constexpr double kMostRatio = 8;
 
 // Weights that follow the gradients grow, to kMostRatio times the other at most, so that fields only shrink towards 0.

@@ -1,4 +1,5 @@
-// The first of fields of either law less the others: max(0, min(f1, 1 - f2)) of positive ones, max(f1, -f2) of signed ones.
+// The first of fields of either law less the others: max(0, min(f1, 1 - f2)) of positive ones, max(f1, -f2) of signed
+// ones.
 #pragma once
 
 #include "operators/binary.h"

@@ -30,9 +30,11 @@ SampledCurve read_control_points(const v1::FunctionalBlend& m, base::FieldReader
   for (int i = 0; i < m.x_size(); ++i) {
     x.push_back(in.coordinate(element_name("x", i), m.x(i)));
     h.push_back(in.coordinate(element_name("h", i), m.h(i)));
-    if (i == 0 && x[i] < 0) in.refuse(element_name("x", i), absl::StrCat(x[i]), "a number >= 0: H is a function of |f1 - f2|");
+    if (i == 0 && x[i] < 0)
+      in.refuse(element_name("x", i), absl::StrCat(x[i]), "a number >= 0: H is a function of |f1 - f2|");
     if (i > 0 && !(x[i] - x[i - 1] >= base::kMinLength)) {
-      in.refuse(element_name("x", i), absl::StrCat(x[i]), absl::StrCat("more than ", x[i - 1], ", by at least ", base::kMinLength));
+      in.refuse(element_name("x", i), absl::StrCat(x[i]),
+                absl::StrCat("more than ", x[i - 1], ", by at least ", base::kMinLength));
     }
   }
   if (!in.status().ok()) return {};
@@ -82,8 +84,8 @@ Spread Functional::kept(std::size_t) const {
 int Functional::lone_operand(const Interval& a, const Interval& b) const {
   // A last control point that is not 0 moves the field however far apart the operands are.
   if (h.y().back() != 0) return -1;
-  const double room = base::kValueRoom *
-                      (std::max({std::abs(a.lo), std::abs(a.hi), std::abs(b.lo), std::abs(b.hi)}) + h.x().back());
+  const double room =
+      base::kValueRoom * (std::max({std::abs(a.lo), std::abs(a.hi), std::abs(b.lo), std::abs(b.hi)}) + h.x().back());
   const double reach = h.x().back() + room;
   return b.lo - a.hi >= reach ? 0 : a.lo - b.hi >= reach ? 1 : -1;
 }

@@ -23,8 +23,7 @@ constexpr double kPi = std::numbers::pi;
 Silhouette read_sampled_silhouette(const base::FieldReader::Numbers& numbers, base::FieldReader& in) {
   const std::vector<double> s =
       read_samples("silhouette.samples", numbers, 1e-3, 2, 1, "a distance from the origin, within [0.001, 2]", in);
-  Silhouette silhouette{Silhouette::Kind::kSampled, 0,
-                                   SampledCurve::even(0, kPi / 2, s)};
+  Silhouette silhouette{Silhouette::Kind::kSampled, 0, SampledCurve::even(0, kPi / 2, s)};
   if (!in.status().ok()) return silhouette;
   const int last = static_cast<int>(s.size()) - 1;
   for (const int end : {0, last}) {

@@ -27,8 +27,8 @@ struct OperandMask {
 // As many operands as terms, or any number where there is one term for all; two where ranges follow an angle.
 OperandCount joint_operand_count(std::size_t terms, const BulgeElimination& by_angle);
 
-// One term for each operand, or one for all. A list holds one number for each operand, one for all, or none where it has a
-// default, which ranges have not.
+// One term for each operand, or one for all. A list holds one number for each operand, one for all, or none where it
+// has a default, which ranges have not.
 std::vector<Term> read_terms(const base::FieldReader::Numbers& ranges, const base::FieldReader::Numbers& powers,
                              const base::FieldReader::Numbers& weights, base::FieldReader& in);
 

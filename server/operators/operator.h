@@ -30,22 +30,22 @@
 namespace isofield::operators {
 
 // Every kind of blend that a scene's node may be: its struct, and its field in the messages Node and Operator.
-#define ISOFIELD_BLENDS(ROW)         \
-  ROW(Sum, sum)                      \
-  ROW(Max, max)                      \
-  ROW(Min, min)                      \
-  ROW(Difference, difference)        \
-  ROW(Ricci, ricci)                  \
-  ROW(Gradient, gradient)            \
-  ROW(Clean, clean)                  \
-  ROW(Barthe, barthe)                \
-  ROW(Bernhardt, bernhardt)          \
-  ROW(RUnion, r_union)               \
-  ROW(Pasko, pasko)                  \
-  ROW(Superelliptic, superelliptic)  \
-  ROW(Functional, functional)        \
-  ROW(Bt2, bt2)                      \
-  ROW(Btk, btk)                      \
+#define ISOFIELD_BLENDS(ROW)        \
+  ROW(Sum, sum)                     \
+  ROW(Max, max)                     \
+  ROW(Min, min)                     \
+  ROW(Difference, difference)       \
+  ROW(Ricci, ricci)                 \
+  ROW(Gradient, gradient)           \
+  ROW(Clean, clean)                 \
+  ROW(Barthe, barthe)               \
+  ROW(Bernhardt, bernhardt)         \
+  ROW(RUnion, r_union)              \
+  ROW(Pasko, pasko)                 \
+  ROW(Superelliptic, superelliptic) \
+  ROW(Functional, functional)       \
+  ROW(Bt2, bt2)                     \
+  ROW(Btk, btk)                     \
   ROW(SmoothMin, smooth_min)
 // Those and the kinds that the catalogue alone holds; scenes use them by name.
 #define ISOFIELD_OPERATORS(ROW) \
@@ -55,27 +55,27 @@ namespace isofield::operators {
 // Everything that an instruction of a tape may do with its operands: its name, the .glsl in shaders/lib/operators/ that
 // holds its function, how that function takes operands (Applies, below), what seams the result may have, and whether it
 // takes less time than a leaf.
-#define ISOFIELD_OPCODES(ROW)                                                      \
-  ROW(Push, push, , kNothing, kNoSeam, kIsLight)                                   \
-  ROW(Sum, sum, sum, kTwo, kNoSeam, kIsLight)                                      \
-  ROW(Max, max, max, kTwo, kNoSeam, kIsLight)                                      \
-  ROW(Min, min, min, kTwo, kNoSeam, kIsLight)                                      \
-  ROW(Subtract, subtract, difference, kTwo, kNoSeam, kIsLight)                     \
-  ROW(SubtractFrom, subtract_from, difference, kTwo, kNoSeam, kIsLight)            \
-  ROW(Ricci, ricci, ricci, kTwo, kNoSeam, kIsHeavy)                                \
-  ROW(Gradient, gradient, gradient, kSteeredTwo, kNoSeam, kIsHeavy)                \
-  ROW(GradientTable, gradient_table, gradient, kSteeredTwo, kNoSeam, kIsHeavy)     \
-  ROW(GradientVolume, gradient_volume, gradient, kSteeredTwo, kNoSeam, kIsHeavy)   \
-  ROW(Clean, clean, clean, kTwo, kHasSeams, kIsHeavy)                              \
-  ROW(Barthe, barthe, barthe, kTwo, kNoSeam, kIsHeavy)                             \
-  ROW(Bernhardt, bernhardt, bernhardt, kTwo, kNoSeam, kIsHeavy)                    \
-  ROW(Pasko, pasko, pasko, kTwo, kHasSeams, kIsHeavy)                              \
-  ROW(Functional, functional, functional, kTwo, kNoSeam, kIsHeavy)                 \
-  ROW(Bt2, bt2, bt2, kTwo, kHasSeams, kIsHeavy)                                    \
-  ROW(SmoothMin, smooth_min, smooth_min, kTwo, kNoSeam, kIsHeavy)                  \
-  ROW(Superelliptic, superelliptic, superelliptic, kMany, kNoSeam, kIsHeavy)       \
-  ROW(Btk, btk, btk, kMany, kNoSeam, kIsHeavy)                                     \
-  ROW(Linear, linear, conversions, kOne, kNoSeam, kIsLight)                        \
+#define ISOFIELD_OPCODES(ROW)                                                    \
+  ROW(Push, push, , kNothing, kNoSeam, kIsLight)                                 \
+  ROW(Sum, sum, sum, kTwo, kNoSeam, kIsLight)                                    \
+  ROW(Max, max, max, kTwo, kNoSeam, kIsLight)                                    \
+  ROW(Min, min, min, kTwo, kNoSeam, kIsLight)                                    \
+  ROW(Subtract, subtract, difference, kTwo, kNoSeam, kIsLight)                   \
+  ROW(SubtractFrom, subtract_from, difference, kTwo, kNoSeam, kIsLight)          \
+  ROW(Ricci, ricci, ricci, kTwo, kNoSeam, kIsHeavy)                              \
+  ROW(Gradient, gradient, gradient, kSteeredTwo, kNoSeam, kIsHeavy)              \
+  ROW(GradientTable, gradient_table, gradient, kSteeredTwo, kNoSeam, kIsHeavy)   \
+  ROW(GradientVolume, gradient_volume, gradient, kSteeredTwo, kNoSeam, kIsHeavy) \
+  ROW(Clean, clean, clean, kTwo, kHasSeams, kIsHeavy)                            \
+  ROW(Barthe, barthe, barthe, kTwo, kNoSeam, kIsHeavy)                           \
+  ROW(Bernhardt, bernhardt, bernhardt, kTwo, kNoSeam, kIsHeavy)                  \
+  ROW(Pasko, pasko, pasko, kTwo, kHasSeams, kIsHeavy)                            \
+  ROW(Functional, functional, functional, kTwo, kNoSeam, kIsHeavy)               \
+  ROW(Bt2, bt2, bt2, kTwo, kHasSeams, kIsHeavy)                                  \
+  ROW(SmoothMin, smooth_min, smooth_min, kTwo, kNoSeam, kIsHeavy)                \
+  ROW(Superelliptic, superelliptic, superelliptic, kMany, kNoSeam, kIsHeavy)     \
+  ROW(Btk, btk, btk, kMany, kNoSeam, kIsHeavy)                                   \
+  ROW(Linear, linear, conversions, kOne, kNoSeam, kIsLight)                      \
   ROW(Soften, soften, conversions, kOne, kNoSeam, kIsLight)
 
 #define ISOFIELD_ENUMERATOR(Name, ...) k##Name,
@@ -123,23 +123,28 @@ static_assert(std::variant_size_v<Parameters> == static_cast<std::size_t>(Kind::
 inline constexpr std::array kKinds{ISOFIELD_OPERATORS(ISOFIELD_TRAITS)};
 #undef ISOFIELD_TRAITS
 
-// The families that a kind belongs to; kind.h says what each asks for.
+// The compiler refuses a kind that does not say of itself what its family asks for.
 template <class K>
-concept IsJoint = K::kTraits.arity == Arity::kJoint;
-template <class K>
-concept IsSteered = K::kTraits.arity == Arity::kSteered;
-template <class K>
-concept IsFolded = K::kTraits.arity == Arity::kFolded;
-template <class K>
-concept IsSigned = K::kTraits.fields == Fields::kSigned;
+constexpr bool is_complete() {
+  static_assert(OperatorKind<K>);
+  static_assert(!IsFolded<K> || FoldedKind<K>);
+  static_assert(!IsSteered<K> || SteeredKind<K, SilhouetteBounds>);
+  static_assert(!IsJoint<K> || JointKind<K, OperandMask>);
+  static_assert(!IsSigned<K> || SignedKind<K>);
+  static_assert(!(IsSigned<K> && IsFolded<K>) || KnowsALoneOperand<K>);
+  return true;
+}
+#define ISOFIELD_CHECK(Name, ...) static_assert(is_complete<Name>());
+ISOFIELD_OPERATORS(ISOFIELD_CHECK)
+#undef ISOFIELD_CHECK
 
 class Operator {
  public:
   Operator() = default;
   // A difference is one whatever `form` says.
   template <class K>
-    requires(!std::is_same_v<std::remove_cvref_t<K>, Operator>)
-  Operator(K kind, Form form = Form::kUnion)  // NOLINT: a kind is an operator
+  requires(!std::is_same_v<std::remove_cvref_t<K>, Operator>)
+      Operator(K kind, Form form = Form::kUnion)  // NOLINT: a kind is an operator
       : form(std::is_same_v<K, Difference> ? Form::kDifference : form), parameters(std::move(kind)) {}
 
   Form form = Form::kUnion;

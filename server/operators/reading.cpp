@@ -38,8 +38,8 @@ double read_tangent_angle(absl::string_view field, double degrees, base::FieldRe
   return in.number(field, degrees, 0, 45, "degrees within [0, 45]") * kRadians;
 }
 
-std::vector<double> read_samples(absl::string_view field, const base::FieldReader::Numbers& numbers, double least, double most,
-                                 double unit, absl::string_view expected, base::FieldReader& in) {
+std::vector<double> read_samples(absl::string_view field, const base::FieldReader::Numbers& numbers, double least,
+                                 double most, double unit, absl::string_view expected, base::FieldReader& in) {
   if (numbers.size() < kLeastSamples || numbers.size() > kMostSamples) {
     in.refuse_count(field, numbers.size(), absl::StrCat(kLeastSamples, " to ", kMostSamples, " samples"));
     return {0, 0};

@@ -34,8 +34,8 @@ std::shared_ptr<const SampledVolume> read_volume(const v1::SampledOperator& m, b
     const int x = i % n, y = i / n % n, z = i / (n * n);
     const float g = volume->values[i];
     const auto refuse = [&](absl::string_view expected) {
-      in.refuse(absl::StrCat(element_name("values", i), " (f1 = ", x * step, ", f2 = ", y * step, ", theta = ", 45 * z * step,
-                             " degrees)"),
+      in.refuse(absl::StrCat(element_name("values", i), " (f1 = ", x * step, ", f2 = ", y * step,
+                             ", theta = ", 45 * z * step, " degrees)"),
                 absl::StrCat(g), expected);
     };
     if (!std::isfinite(g) || std::abs(g) > 16) {

@@ -24,8 +24,8 @@ bool is_sharp(const Opening& opening) {
 }
 
 Float4 steered_record(const Opening& opening, std::uint32_t blend, const Use& use, Tables& tables) {
-  return {std::bit_cast<float>(tables.opening(opening)), std::bit_cast<float>(blend), f32(std::tan(opening.theta_min())),
-          f32(use.length)};
+  return {std::bit_cast<float>(tables.opening(opening)), std::bit_cast<float>(blend),
+          f32(std::tan(opening.theta_min())), f32(use.length)};
 }
 
 std::uint32_t volume_word(std::uint32_t slot, int size) {

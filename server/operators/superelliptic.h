@@ -23,8 +23,8 @@ struct Superelliptic {
   static constexpr Traits kTraits{"superelliptic", Fields::kSigned, Arity::kJoint, true};
   static Superelliptic read(const v1::SuperellipticBlend& message, base::FieldReader& in);
 
-  double exponent = 1;       // t
-  std::vector<Term> terms;   // of which the ranges count: one an operand, or one for all
+  double exponent = 1;           // t
+  std::vector<Term> terms;       // of which the ranges count: one an operand, or one for all
   BulgeElimination elimination;  // Rockwood's ranges, r (1 - cos alpha) + omega r
 
   OperandCount operand_count() const { return joint_operand_count(terms.size(), elimination); }
@@ -40,7 +40,8 @@ struct Superelliptic {
   Joint<T> unite_all(const std::vector<T>& x, const Angle<T>& angle) const {
     Joint<T> r{T(1.0), {}};
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const T range = elimination.is_on ? angular_range(term(i).range, angle.cosine, elimination.omega) : T(term(i).range);
+      const T range =
+          elimination.is_on ? angular_range(term(i).range, angle.cosine, elimination.omega) : T(term(i).range);
       const Bracket<T> b = bracket(x[i], range, exponent);
       r.g = r.g - b.value;
       r.partials.push_back(b.fall);
@@ -53,8 +54,8 @@ struct Superelliptic {
   Spread reached(std::size_t operand) const;
   Spread kept(std::size_t operand) const;
 
-  // One operand's part, [1 - x/r]_+^t, with minus its derivative. Deep inside, where the power is above 1e12, it goes on
-  // straight: a power would leave the numbers.
+  // One operand's part, [1 - x/r]_+^t, with minus its derivative. Deep inside, where the power is above 1e12, it goes
+  // on straight: a power would leave the numbers.
   template <class T>
   struct Bracket {
     T value, fall;

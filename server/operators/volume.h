@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "operators/gradient_blend.h"
-#include "operators/gradient_blend.h"
 #include "operators/sampled.h"
 
 namespace isofield::operators {

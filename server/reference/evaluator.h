@@ -1,6 +1,6 @@
 // The slow, obvious evaluator of a Blob-tree in double precision: the oracle of the tests, and a debugging mode. It
-// walks the scene itself, so that it checks the compiler as well as the device, and keeps every node's derivatives in the
-// node's own frame: a transform of f yields f(T^-1 p), whatever stands below.
+// walks the scene itself, so that it checks the compiler as well as the device, and keeps every node's derivatives in
+// the node's own frame: a transform of f yields f(T^-1 p), whatever stands below.
 #pragma once
 
 #include <cstdint>

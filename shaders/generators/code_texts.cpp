@@ -31,8 +31,8 @@ std::size_t words(std::size_t codes) {
 }
 
 std::string head(const char* about, const char* guard) {
-  return absl::StrCat("// ", about, " Written by shaders/generators/code_texts.cpp.\n#ifndef ", guard, "\n#define ", guard,
-                      "\n\n");
+  return absl::StrCat("// ", about, " Written by shaders/generators/code_texts.cpp.\n#ifndef ", guard, "\n#define ",
+                      guard, "\n\n");
 }
 
 // The constant NAME_i, and the macro HAS_NAME_i, of each code.
@@ -40,8 +40,8 @@ template <class Traits>
 void append_codes(std::string& text, std::string_view prefix, const char* word_name, std::span<const Traits> codes) {
   for (std::size_t i = 0; i < codes.size(); ++i) {
     const std::string name = absl::StrCat(text_of(prefix), upper(codes[i].name));
-    absl::StrAppend(&text, "const uint ", name, " = ", literal(i), ";\n#define HAS_", name, " ((", word_name, i / 32, " & ",
-                    literal(1u << i % 32), ") != 0u)\n");
+    absl::StrAppend(&text, "const uint ", name, " = ", literal(i), ";\n#define HAS_", name, " ((", word_name, i / 32,
+                    " & ", literal(1u << i % 32), ") != 0u)\n");
   }
   absl::StrAppend(&text, "\n");
 }
@@ -64,12 +64,14 @@ void append_constant(std::string& text, std::size_t id, const std::string& name,
 
 // Without a scene a kernel knows of every code.
 void append_specialisation(std::string& text, std::size_t operand_words, std::size_t opcode_words) {
-  absl::StrAppend(&text, "// A kernel is specialised to the codes of the tapes it runs: on lavapipe every branch of a shader\n"
-                         "// costs, taken or not, and only code that is dead at pipeline creation costs nothing. Where the tape\n"
-                         "// is known when GLSL is compiled (tape_points.comp), these are macros: what they switch off, some nine\n"
-                         "// tenths, is dropped before the driver sees it. server/engine/kernels/kernel_constants.h says what\n"
-                         "// each means.\n#ifndef ",
-                  engine::kKernelConstantNames[0], "\n");
+  absl::StrAppend(
+      &text,
+      "// A kernel is specialised to the codes of the tapes it runs: on lavapipe every branch of a shader\n"
+      "// costs, taken or not, and only code that is dead at pipeline creation costs nothing. Where the tape\n"
+      "// is known when GLSL is compiled (tape_points.comp), these are macros: what they switch off, some nine\n"
+      "// tenths, is dropped before the driver sees it. server/engine/kernels/kernel_constants.h says what\n"
+      "// each means.\n#ifndef ",
+      engine::kKernelConstantNames[0], "\n");
   constexpr const char* kAll = "0xffffffffu";
   constexpr const char* kValues[] = {kAll, "0xffu", "0xffu", "16u", "0u", "16u", "0xfu", "0u"};
   static_assert(std::size(kValues) == engine::kKernelConstantNames.size());
@@ -78,8 +80,10 @@ void append_specialisation(std::string& text, std::size_t operand_words, std::si
     append_constant(text, id, name, kValues[id]);
     ++id;
   }
-  for (std::size_t w = 0; w < operand_words; ++w) append_constant(text, id++, absl::StrCat(engine::kOperandWordName, w), kAll);
-  for (std::size_t w = 0; w < opcode_words; ++w) append_constant(text, id++, absl::StrCat(engine::kOpcodeWordName, w), kAll);
+  for (std::size_t w = 0; w < operand_words; ++w)
+    append_constant(text, id++, absl::StrCat(engine::kOperandWordName, w), kAll);
+  for (std::size_t w = 0; w < opcode_words; ++w)
+    append_constant(text, id++, absl::StrCat(engine::kOpcodeWordName, w), kAll);
   absl::StrAppend(&text, "#endif\n\n");
 }
 
@@ -102,8 +106,8 @@ void append_dispatch(std::string& text, Opcodes opcodes, Applies applies, std::s
   absl::StrAppend(&text, text_of(signature), " {\n  Field r = ", text_of(start), ";\n");
   for (const operators::OpcodeTraits& o : opcodes) {
     if (o.applies != applies) continue;
-    absl::StrAppend(&text, if_code("OPERATOR_", "ONLY_OPERATOR", "op", o.name), "r = ", text_of(prefix), text_of(o.name),
-                    text_of(arguments), ";\n");
+    absl::StrAppend(&text, if_code("OPERATOR_", "ONLY_OPERATOR", "op", o.name), "r = ", text_of(prefix),
+                    text_of(o.name), text_of(arguments), ";\n");
   }
   absl::StrAppend(&text, "  return r;\n}\n\n");
 }
@@ -112,7 +116,8 @@ void append_dispatch(std::string& text, Opcodes opcodes, Applies applies, std::s
 void append_question(std::string& text, Opcodes opcodes, Applies applies, const char* name) {
   absl::StrAppend(&text, "bool ", name, "(uint op) {\n");
   for (const operators::OpcodeTraits& o : opcodes) {
-    if (o.applies == applies) absl::StrAppend(&text, if_code("OPERATOR_", "ONLY_OPERATOR", "op", o.name), "return true;\n");
+    if (o.applies == applies)
+      absl::StrAppend(&text, if_code("OPERATOR_", "ONLY_OPERATOR", "op", o.name), "return true;\n");
   }
   absl::StrAppend(&text, "  return false;\n}\n\n");
 }
@@ -125,13 +130,16 @@ std::string codes_text(Operands operands, Opcodes opcodes) {
   append_specialisation(text, words(operands.size()), words(opcodes.size()));
   append_codes(text, "OPERAND_", engine::kOperandWordName, operands);
   append_codes(text, "OPERATOR_", engine::kOpcodeWordName, opcodes);
-  absl::StrAppend(&text, "// Of all instructions, or of this one. Comparisons that the first decides are dropped with their branches.\n"
-                         "bool is_code(uint only, uint code, uint candidate) { return only == candidate || code == candidate; }\n\n");
+  absl::StrAppend(
+      &text,
+      "// Of all instructions, or of this one. Comparisons that the first decides are dropped with their branches.\n"
+      "bool is_code(uint only, uint code, uint candidate) { return only == candidate || code == candidate; }\n\n");
   const auto number = [](auto value) { return literal(static_cast<std::uint32_t>(value)); };
   absl::StrAppend(&text, "const uint FORM_UNION = ", number(operators::Form::kUnion),
                   ", FORM_INTERSECTION = ", number(operators::Form::kIntersection),
                   ", FORM_DIFFERENCE = ", number(operators::Form::kDifference), ";\n");
-  const blobtree::Mode of_signed{operators::Form::kDifference, true, false}, plain{operators::Form::kDifference, false, false};
+  const blobtree::Mode of_signed{operators::Form::kDifference, true, false},
+      plain{operators::Form::kDifference, false, false};
   const blobtree::Mode exchanged{operators::Form::kUnion, false, true};
   absl::StrAppend(&text, "const uint MODE_SIGNED = ", literal(of_signed.bits() & ~plain.bits()),
                   ", MODE_EXCHANGED = ", literal(exchanged.bits()), ";\n\n");
@@ -143,9 +151,11 @@ std::string codes_text(Operands operands, Opcodes opcodes) {
   flag("may_follow_angle", Codes::kByAngle);
   flag("has_frames", Codes::kFramed);
   flag("has_sampled_openings", Codes::kSampledOpenings);
-  absl::StrAppend(&text, "// Steered operators, and ranges that follow an angle, need their operands' directions.\n#define is_steered() ",
-                  any_of(opcodes, Applies::kSteeredTwo, absl::StrCat("(CODE_FLAGS & ", number(Codes::kByAngle), ")")),
-                  "\n\nconst int MAX_OPERANDS = ", operators::kMaxOperands, ";\n\n#endif\n");
+  absl::StrAppend(
+      &text,
+      "// Steered operators, and ranges that follow an angle, need their operands' directions.\n#define is_steered() ",
+      any_of(opcodes, Applies::kSteeredTwo, absl::StrCat("(CODE_FLAGS & ", number(Codes::kByAngle), ")")),
+      "\n\nconst int MAX_OPERANDS = ", operators::kMaxOperands, ";\n\n#endif\n");
   return text;
 }
 
@@ -172,13 +182,13 @@ std::string operators_text(Opcodes opcodes) {
   append_dispatch(text, opcodes, Applies::kTwo, "Field unite(Field a, Field b, uint op, uint record, Angle angle)", "b",
                   "unite_", "(a, b, record, angle)");
   append_dispatch(text, opcodes, Applies::kSteeredTwo,
-                  "Field unite_steered(Field r0, Field a, Field b, Field u, Field v, uint op, uint record)", "r0", "unite_",
-                  "(a, b, u, v, record)");
+                  "Field unite_steered(Field r0, Field a, Field b, Field u, Field v, uint op, uint record)", "r0",
+                  "unite_", "(a, b, u, v, record)");
   append_dispatch(text, opcodes, Applies::kMany,
-                  "Field unite_many(Field x[MAX_OPERANDS], uint op, uint mask, uint record, Angle angle)", "x[0]", "unite_",
-                  "(x, mask, record, angle)");
-  append_dispatch(text, opcodes, Applies::kOne, "Field convert(Field r0, Field a, uint op, uint record)", "r0", "apply_",
-                  "(a, record)");
+                  "Field unite_many(Field x[MAX_OPERANDS], uint op, uint mask, uint record, Angle angle)", "x[0]",
+                  "unite_", "(x, mask, record, angle)");
+  append_dispatch(text, opcodes, Applies::kOne, "Field convert(Field r0, Field a, uint op, uint record)", "r0",
+                  "apply_", "(a, record)");
   append_question(text, opcodes, Applies::kMany, "is_of_many");
   append_question(text, opcodes, Applies::kSteeredTwo, "is_steered_operator");
   absl::StrAppend(&text, "bool makes_seams(uint op, uint record) {\n");

@@ -2,8 +2,8 @@
 #ifndef DISTANCE_GLSL
 #define DISTANCE_GLSL
 
+#include "domain.glsl"
 #include "field.glsl"
-#include "parameters.glsl"
 
 // Coordinates beyond would overflow when squared; all supports lie within.
 const float FARTHEST = 1e10;
@@ -67,24 +67,6 @@ Distance revolve(vec3 q, float rho, float d, vec2 n, float curvature) {
   s.h = curvature * outerProduct(along, along) + n.x * inverse_rho * outerProduct(around, around);
 #endif
   return s;
-}
-
-// An affine leaf: the rows of its map to the shape's own frame, with three parameters beside them.
-struct Placement {
-  vec3 q;          // the point in the shape's frame
-  mat3 to_world;   // of gradients: the transpose of the map
-  vec3 size;
-  float slope;
-};
-
-Placement place(vec3 p, uint record) {
-  Pair first = leaf_pair_at(record), second = leaf_pair_at(record + 2u);
-  vec4 anchor = first.a, r0 = first.b, r1 = second.a, r2 = second.b;
-  vec3 v = p - anchor.xyz;
-  // Scaled coordinates beyond would overflow when squared, too.
-  vec3 q = clamp(vec3(dot(r0.xyz, v), dot(r1.xyz, v), dot(r2.xyz, v)), vec3(-1e19), vec3(1e19));
-  return Placement(q, mat3(r0.xyz, r1.xyz, r2.xyz),
-                   vec3(r0.w, r1.w, r2.w), anchor.w);
 }
 
 Field placed_field(Placement at, Distance s) {

@@ -67,14 +67,15 @@ TEST(Conformance, EveryOperatorIsTheSameOnTheDevice) {
   }
 }
 
-// A power multiplies the relative error of its logarithm by the exponent, and that of its base: where a driver's log2 is
-// off by 2^-21, as it may be, values were off by 3e-5.
+// A power multiplies the relative error of its logarithm by the exponent, and that of its base: where a driver's log2
+// is off by 2^-21, as it may be, values were off by 3e-5.
 TEST(Conformance, PowersKeepTheirDigitsAtTheGreatestExponents) {
   std::vector<Case> all;
   for (const double t : {1.0001, 7.3, 31.0, 64.0}) {
     all.push_back({"ricci " + std::to_string(t), operators::Ricci{t}});
     // The ranges are as float32 has them.
-    all.push_back({"superelliptic " + std::to_string(t), operators::Superelliptic{t, {{0.75, 2, 1}, {1.25, 2, 1}}, {}}});
+    all.push_back(
+        {"superelliptic " + std::to_string(t), operators::Superelliptic{t, {{0.75, 2, 1}, {1.25, 2, 1}}, {}}});
     all.push_back({"btk " + std::to_string(t), operators::Btk{{{1, t, 1}, {0.7, t, 0.4}, {1.3, 2, 2}}, {}}, 3});
   }
   for (const Case& c : all) {
@@ -196,7 +197,8 @@ TEST(Conformance, PartialsAreDifferencesOfExactValues) {
     test_support::Random random(31);
     std::vector<float> rows;
     constexpr int kRows = 500;
-    const std::size_t columns = c.operands + (c.op.has_angular_ranges() ? 2 : 0), partials = c.operands + (c.op.has_angular_ranges() ? 1 : 0);
+    const std::size_t columns = c.operands + (c.op.has_angular_ranges() ? 2 : 0),
+                      partials = c.operands + (c.op.has_angular_ranges() ? 1 : 0);
     for (int i = 0; i < kRows; ++i) {
       for (std::size_t k = 0; k < c.operands; ++k) {
         rows.push_back(static_cast<float>(is_signed ? random.number(-1.5, 1.5) : random.number(0.01, 1.5)));
@@ -272,8 +274,8 @@ TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
 
 // The rows lie where one piece of the curve ends and the next begins, before the first and beyond the last.
 TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
-  const Operator op =
-      operators::Functional{operators::SampledCurve({0.125, 0.25, 0.2500001, 0.5, 1}, {0.5, 0.4, 0.3999999, 0.2, 0.0625})};
+  const Operator op = operators::Functional{
+      operators::SampledCurve({0.125, 0.25, 0.2500001, 0.5, 1}, {0.5, 0.4, 0.3999999, 0.2, 0.0625})};
   std::vector<float> rows;
   for (const float x : {0.0f, 0.125f, 0.25f, 0.2500001f, 0.5f, 1.0f, 2.0f}) {
     for (const float at : {std::nextafter(x, -1.0f), x, std::nextafter(x, 3.0f)}) {
@@ -286,7 +288,8 @@ TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
     const FieldState e = exact(op, {x1, x2});
     EXPECT_NEAR(results[3 * i], e.field.v, 3e-7) << x1 << ", " << x2;
     if (std::abs(std::abs(x1 - x2) - 0.25f) < 1e-6f) continue;  // the slope turns within an ulp
-    if (x1 != x2 && std::abs(x1 - x2) < 1e-37f) continue;       // a driver may take denormals for 0, where either side will do
+    if (x1 != x2 && std::abs(x1 - x2) < 1e-37f)
+      continue;  // a driver may take denormals for 0, where either side will do
     EXPECT_NEAR(results[3 * i + 1], e.field.d.x, 1e-5) << x1 << ", " << x2;
     EXPECT_NEAR(results[3 * i + 2], e.field.d.y, 1e-5) << x1 << ", " << x2;
   }
@@ -462,8 +465,8 @@ TEST(Conformance, ConicsOfAnyTightnessAreTheSameOnTheDevice) {
     for (std::size_t i = 0; 2 * i < rows.size(); ++i) {
       const FieldState e = exact(op, {rows[2 * i], rows[2 * i + 1]});
       worst = std::max(worst, std::abs(results[3 * i] - e.field.v));
-      worst_partial = std::max({worst_partial, std::abs(results[3 * i + 1] - e.field.d.x),
-                                std::abs(results[3 * i + 2] - e.field.d.y)});
+      worst_partial = std::max(
+          {worst_partial, std::abs(results[3 * i + 1] - e.field.d.x), std::abs(results[3 * i + 2] - e.field.d.y)});
       from_union = std::max(from_union, std::min(rows[2 * i], rows[2 * i + 1]) - e.field.v);
     }
     test_support::figure(absl::StrCat("1 - p / (r1 r2) = ", below, ": values off by"), worst);

@@ -50,8 +50,13 @@ std::vector<Case> all_cases() {
 }
 
 TEST(Finite, OperatorsAreAtTheEndsOfFloat32) {
-  std::vector<float> fields{0, std::numeric_limits<float>::denorm_min(), 1e-38f, 1e-20f, 1e-7f, 0.5f, 1, 3, 1e7f, 1e12f,
-                            1e19f, 1e25f, 1e30f, 1e36f};
+  std::vector<float> fields{0,      std::numeric_limits<float>::denorm_min(),
+                            1e-38f, 1e-20f,
+                            1e-7f,  0.5f,
+                            1,      3,
+                            1e7f,   1e12f,
+                            1e19f,  1e25f,
+                            1e30f,  1e36f};
   std::size_t rows_in_all = 0;
   for (const Case& c : all_cases()) {
     std::vector<float> values = fields;
@@ -243,8 +248,8 @@ std::string scene_text(Case c, const Shapes& shapes, ExtremeScene& extreme) {
 
 // Points from float32's ends and from around the leaves.
 std::vector<float> extreme_points(const v1::Scene& scene, int count, Random& random) {
-  constexpr float kEnds[] = {0,      -0.0f,  1e-45f, 1.2e-38f, -1e-30f, 1e-20f, -1e-9f, 1e-3f, 0.3f,
-                             -1,     1,      50,     -1e4f,    1e9f,    -1e9f,  1e10f,  1e15f, -3e38f, kMost};
+  constexpr float kEnds[] = {0, -0.0f, 1e-45f, 1.2e-38f, -1e-30f, 1e-20f, -1e-9f, 1e-3f,  0.3f, -1,
+                             1, 50,    -1e4f,  1e9f,     -1e9f,   1e10f,  1e15f,  -3e38f, kMost};
   std::vector<blobtree::dvec3> centres{{0, 0, 0}};
   const auto add = [&](const auto& point) {
     if (point.size() == 3) centres.push_back({point[0], point[1], point[2]});

@@ -36,8 +36,8 @@ Mesh mesh_of(const v1::Scene& scene, const MeshRequest& request) {
 
 // One of the 24 rotations of a cube, as two turns by multiples of 90 degrees that a scene states one after the other.
 struct Turn {
-  int about_z = 0;       // in quarters, first
-  dvec3 then{1, 0, 0};   // an axis, and the quarters about it
+  int about_z = 0;      // in quarters, first
+  dvec3 then{1, 0, 0};  // an axis, and the quarters about it
   int quarters = 0;
 
   Affine map() const {
@@ -77,8 +77,8 @@ double furthest_corner(const Mesh& mesh, const std::vector<dvec3>& corners) {
 std::vector<dvec3> box_corners(const dvec3& centre, const dvec3& half, const Affine& map) {
   std::vector<dvec3> corners;
   for (int c = 0; c < 8; ++c) {
-    corners.push_back(map.point(centre + dvec3{c & 1 ? half.x : -half.x, c & 2 ? half.y : -half.y,
-                                               c & 4 ? half.z : -half.z}));
+    corners.push_back(
+        map.point(centre + dvec3{c & 1 ? half.x : -half.x, c & 2 ? half.y : -half.y, c & 4 ? half.z : -half.z}));
   }
   return corners;
 }
@@ -136,10 +136,9 @@ TEST(MeshLattice, ShearedBoxesHaveAllTheirCorners) {
   double worst = 0;
   for (const double shear : {0.5, -0.5}) {
     const Affine map{{{{1, 0, shear}, {0, 1, 0}, {0, 0, 1}}}, {}};
-    const std::string box =
-        absl::StrCat(R"([{"name": "box", "box": {"half_size": [1, 0.5, 0.5], "law": "SIGNED"}},
+    const std::string box = absl::StrCat(R"([{"name": "box", "box": {"half_size": [1, 0.5, 0.5], "law": "SIGNED"}},
                          {"name": "sheared", "transform": {"child": "box", "matrix": [1, 0, )",
-                     shear, R"(, 0, 0, 1, 0, 0, 0, 0, 1, 0]}})");
+                                         shear, R"(, 0, 0, 1, 0, 0, 0, 0, 1, 0]}})");
     for (const Turn& turn : turns()) {
       const v1::Scene scene = test_support::scene_of_nodes(box + turn.nodes_above("sheared") + "]");
       for (const double cell : kDividing) {
@@ -156,7 +155,8 @@ TEST(MeshLattice, ShearedBoxesHaveAllTheirCorners) {
   std::cout << "the furthest corner is " << worst << " cells off\n";
 }
 
-// Tells which sides of a box, given from its own frame, cross edges of the cell of the lattice that holds a corner of it.
+// Tells which sides of a box, given from its own frame, cross edges of the cell of the lattice that holds a corner of
+// it.
 std::size_t sides_seen(const dvec3& corner, const dvec3& half, const Affine& map, double cell) {
   const Affine inverse = *map.inverse();
   const auto depths = [&](const dvec3& p) {
@@ -206,8 +206,7 @@ TEST(MeshLattice, BoxesTurnedAnyWayHaveMostOfTheirCorners) {
             {"transform": {"child": "box", "rotation": [)",
         axis.x, ", ", axis.y, ", ", axis.z, ", ", degrees, R"(], "translation": [)", centre.x, ", ", centre.y, ", ",
         centre.z, "]}}]"));
-    const Affine map =
-        Affine::translation(centre).after(Affine::rotation(axis, degrees * std::numbers::pi / 180));
+    const Affine map = Affine::translation(centre).after(Affine::rotation(axis, degrees * std::numbers::pi / 180));
     const Mesh mesh = mesh_of(scene, {.cell_size = kCell, .iso = 0});
     const MeshReport report = test_support::check_mesh(mesh.positions, mesh.triangles);
     EXPECT_TRUE(report.sound()) << report.text();
@@ -219,13 +218,13 @@ TEST(MeshLattice, BoxesTurnedAnyWayHaveMostOfTheirCorners) {
     std::vector<double>& c = cuts[sides];
     if (c.empty()) continue;
     std::sort(c.begin(), c.end());
-    std::cout << c.size() << " corners in cells that see " << sides << " sides: "
-              << std::count_if(c.begin(), c.end(), [](double x) { return x <= 0.02; }) << " within 0.02 cells, mean "
-              << std::accumulate(c.begin(), c.end(), 0.0) / c.size() << ", 95 % within " << c[c.size() * 95 / 100]
-              << ", the furthest " << c.back() << "\n";
+    std::cout << c.size() << " corners in cells that see " << sides
+              << " sides: " << std::count_if(c.begin(), c.end(), [](double x) { return x <= 0.02; })
+              << " within 0.02 cells, mean " << std::accumulate(c.begin(), c.end(), 0.0) / c.size() << ", 95 % within "
+              << c[c.size() * 95 / 100] << ", the furthest " << c.back() << "\n";
   }
-  // The others lie in cells with several patches, or their creases end in the cells beside them. A corner in a cell none
-  // of whose edges the surface crosses is cut off: the vertices beside it keep to their own cells.
+  // The others lie in cells with several patches, or their creases end in the cells beside them. A corner in a cell
+  // none of whose edges the surface crosses is cut off: the vertices beside it keep to their own cells.
   EXPECT_LE(cuts[3][cuts[3].size() * 99 / 100], 0.02);
   EXPECT_LE(cuts[2][cuts[2].size() * 9 / 10], 0.02);
   EXPECT_LE(cuts[0].back(), 1);
@@ -235,8 +234,10 @@ TEST(MeshLattice, BoxesTurnedAnyWayHaveMostOfTheirCorners) {
 void expect_of_pairs(const std::string& a, const std::string& b, const std::string& operation, bool is_signed,
                      const Solid& solid, bool counts_bodies = true) {
   const std::string pair = absl::StrCat(R"([{"name": "a", "box": {)", a, ", ", law_of(is_signed), R"(}},
-      {"name": "b", "box": {)", b, ", ", law_of(is_signed), R"(}},
-      {"name": "pair", ")", operation, R"(": {"children": ["a", "b"]}})");
+      {"name": "b", "box": {)",
+                                        b, ", ", law_of(is_signed), R"(}},
+      {"name": "pair", ")",
+                                        operation, R"(": {"children": ["a", "b"]}})");
   for (const Turn& turn : turns()) {
     const v1::Scene scene = test_support::scene_of_nodes(pair + turn.nodes_above("pair") + "]");
     std::vector<double> cells(kDividing.begin(), kDividing.end());

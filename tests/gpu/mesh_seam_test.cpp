@@ -27,8 +27,8 @@ double degrees_between(const dvec3& a, const dvec3& b) {
   return std::atan2(length(cross(a, b)), dot(a, b)) / kDegrees;
 }
 
-// Two tubes that meet at `joint`, neither along an axis of the lattice. `along` and `inwards` span their plane; the seam
-// lies in the plane across `along`, on the side of `inwards`.
+// Two tubes that meet at `joint`, neither along an axis of the lattice. `along` and `inwards` span their plane; the
+// seam lies in the plane across `along`, on the side of `inwards`.
 struct Bend {
   dvec3 joint, along, inwards, first, second;  // the tubes leave the joint along the last two
 
@@ -98,7 +98,9 @@ class MeshSeams : public testing::TestWithParam<Union> {
       const bool is_on_ball = dot(p, is_first ? bend.first : bend.second) < 0;
       vertices_.push_back({dot(p, bend.along) / cell, dot(p, bend.inwards) > 0 ? degrees_between(from, to) : 0,
                            dot(n - from, across) / std::max(dot(across, across), 1e-12),
-                           degrees_between(n, is_on_ball ? unit(p) : is_first ? from : to)});
+                           degrees_between(n, is_on_ball ? unit(p)
+                                              : is_first ? from
+                                                         : to)});
     }
   }
 
@@ -109,9 +111,9 @@ class MeshSeams : public testing::TestWithParam<Union> {
 INSTANTIATE_TEST_SUITE_P(Unions, MeshSeams, testing::ValuesIn(kUnions),
                          [](const auto& info) { return std::string(info.param.name); });
 
-// Along a seam half of the turn is made on the seam itself, and not up to a cell beside it by the accident of the lattice.
-// What is left comes from vertices within a cell of the seam from where the other tube is seen as the ball at its end
-// alone: beyond the radius times half the turn. Where the tubes touch normals are exact.
+// Along a seam half of the turn is made on the seam itself, and not up to a cell beside it by the accident of the
+// lattice. What is left comes from vertices within a cell of the seam from where the other tube is seen as the ball at
+// its end alone: beyond the radius times half the turn. Where the tubes touch normals are exact.
 TEST_P(MeshSeams, AreShadedEvenly) {
   for (const double degrees : {10, 14, 20, 24}) {
     for (const double cells_per_radius : {3, 5, 8}) {

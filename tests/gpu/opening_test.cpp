@@ -164,10 +164,9 @@ TEST(OpeningOnDevice, TheAngleOfGradientsIsGoodToRounding) {
   test_support::Random random(9);
   double worst_angle = 0, most_steep = 0, worst_gradient = 0;
   for (const Opening& o : openings) {
-    const v1::Scene scene = test_support::scene_of_nodes(
-        absl::StrCat("[", test_support::soft_sphere("a", centres[0], 1), ",",
-                     test_support::soft_sphere("b", centres[1], 1),
-                     R"(, {"gradient": {"children": ["a", "b"], "opening": )", opening_json(o), "}}]"));
+    const v1::Scene scene = test_support::scene_of_nodes(absl::StrCat(
+        "[", test_support::soft_sphere("a", centres[0], 1), ",", test_support::soft_sphere("b", centres[1], 1),
+        R"(, {"gradient": {"children": ["a", "b"], "opening": )", opening_json(o), "}}]"));
     std::vector<dvec3> points;
     for (int i = 0; i < 20'000; ++i) {
       const bool is_between = i % 2 == 0;
@@ -190,13 +189,14 @@ TEST(OpeningOnDevice, TheAngleOfGradientsIsGoodToRounding) {
       if (steep > 20) worst_angle = std::max(worst_angle, error / steep);
       most_steep = std::max(most_steep, steep);
       ASSERT_LE(error, 1.5e-6 + 4e-7 * steep) << "alpha " << alpha << " slope " << theta.d1;
-      // Beside float32's error of the rest: theta'' and dg/dtheta where the angle is off by its rounding, and the turn of
-      // the normal of two gradients that are nearly parallel; the angle changes by less than 30 a unit of length here.
+      // Beside float32's error of the rest: theta'' and dg/dtheta where the angle is off by its rounding, and the turn
+      // of the normal of two gradients that are nearly parallel; the angle changes by less than 30 a unit of length
+      // here.
       constexpr double kRounding = 4e-7;
       const double bend = std::abs(o.theta(alpha + kRounding).d1 - o.theta(std::max(alpha - kRounding, 0.0)).d1);
       const double turn = std::abs(theta.d1) * kRounding;
-      const double allowed = 2e-4 * std::max(1.0, length(s.gradient)) +
-                             30 * (std::abs(g.gt) * (bend + turn / std::sin(alpha)) + turn);
+      const double allowed =
+          2e-4 * std::max(1.0, length(s.gradient)) + 30 * (std::abs(g.gt) * (bend + turn / std::sin(alpha)) + turn);
       const double off = length(device[i].gradient - s.gradient);
       worst_gradient = std::max(worst_gradient, off / allowed);
       ASSERT_LE(off, allowed) << "alpha " << alpha << " slope " << theta.d1;

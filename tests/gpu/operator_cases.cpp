@@ -109,7 +109,9 @@ std::vector<Case> cases() {
 std::vector<float> on_device(const Case& c, const std::vector<float>& arguments) {
   static engine::OperatorEvaluator evaluator(device(), kernels(), volumes());
   using engine::Steering;
-  const Steering steering = c.op.has_angular_ranges() ? Steering::kAlpha : c.op.is_steered() ? Steering::kTheta : Steering::kNone;
+  const Steering steering = c.op.has_angular_ranges() ? Steering::kAlpha
+                            : c.op.is_steered()       ? Steering::kTheta
+                                                      : Steering::kNone;
   const std::size_t steers = steering != Steering::kNone ? 1 : 0;
   const std::size_t columns = c.operands + steers + (c.op.has_angular_ranges() ? 1 : 0);
   std::vector<float> results(arguments.size() / columns * (1 + c.operands + steers));
@@ -193,10 +195,10 @@ std::string operator_node(const Operator& op, const std::vector<std::string>& ch
       add("omega", number(k.elimination.omega));
     }
   });
-  if (op.form == Form::kIntersection) add("form", "\"INTERSECTION\"");
-  if (op.form == Form::kDifference) add("form", "\"DIFFERENCE\"");
-  return absl::StrCat("{", name.empty() ? "" : absl::StrCat("\"name\": \"", name, "\", "), "\"", std::string(op.traits().name), "\": {", fields,
-                      "}}");
+  if (op.traits().has_form && op.form == Form::kIntersection) add("form", "\"INTERSECTION\"");
+  if (op.traits().has_form && op.form == Form::kDifference) add("form", "\"DIFFERENCE\"");
+  return absl::StrCat("{", name.empty() ? "" : absl::StrCat("\"name\": \"", name, "\", "), "\"",
+                      std::string(op.traits().name), "\": {", fields, "}}");
 }
 
 }  // namespace isofield::gpu_test

@@ -206,14 +206,16 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesAtDegenerateFields) {
         }
       }
     }
-    const std::size_t columns = c.operands + (c.op.has_angular_ranges() ? 2 : 0), width = 1 + c.operands + (c.op.has_angular_ranges() ? 1 : 0);
+    const std::size_t columns = c.operands + (c.op.has_angular_ranges() ? 2 : 0),
+                      width = 1 + c.operands + (c.op.has_angular_ranges() ? 1 : 0);
     const std::vector<float> results = on_device(c, rows);
     double worst = 0;
     for (std::size_t i = 0; i * columns < rows.size(); ++i) {
       const auto at = rows.begin() + static_cast<std::ptrdiff_t>(i * columns);
       const std::vector<double> x(at, at + static_cast<std::ptrdiff_t>(columns));
       const auto row = [&] { return "at " + absl::StrJoin(x, " "); };
-      const reference::FieldState e = c.op.has_angular_ranges() ? exact_at(c.op, x[0], x[1], x[2], x[3]) : exact(c.op, x);
+      const reference::FieldState e =
+          c.op.has_angular_ranges() ? exact_at(c.op, x[0], x[1], x[2], x[3]) : exact(c.op, x);
       ASSERT_TRUE(std::isfinite(e.field.v) && std::isfinite(length(e.field.d))) << row();
       for (const float r : std::span(&results[i * width], width)) ASSERT_TRUE(std::isfinite(r)) << row();
       double scale = std::max(1.0, std::abs(e.field.v));

@@ -19,9 +19,8 @@ using blobtree::dvec3;
 using test_support::PrimitiveNode;
 
 // As it is, turned and scaled, and under a map that keeps no angles.
-constexpr const char* kMaps[] = {
-    "", R"("rotation": [1, 2, -3, 40], "scale": [1.5], "translation": [0.2, -0.1, 0.3])",
-    R"("rotation": [1, 1, 0, 25], "scale": [1.4, 0.7, 1], "translation": [0.1, 0, -0.2])"};
+constexpr const char* kMaps[] = {"", R"("rotation": [1, 2, -3, 40], "scale": [1.5], "translation": [0.2, -0.1, 0.3])",
+                                 R"("rotation": [1, 1, 0, 25], "scale": [1.4, 0.7, 1], "translation": [0.1, 0, -0.2])"};
 
 std::vector<dvec3> points_around(std::uint64_t seed, int count) {
   test_support::Random random(seed);
@@ -46,7 +45,8 @@ void expect_as_reference(const std::string& nodes, double tolerance) {
     ++smooth;
     worst_gradient = std::max(worst_gradient, length(samples[i].gradient - e.gradient));
   }
-  std::cout << "values off by " << worst << ", gradients by " << worst_gradient << " at " << smooth << " smooth points\n";
+  std::cout << "values off by " << worst << ", gradients by " << worst_gradient << " at " << smooth
+            << " smooth points\n";
   EXPECT_LE(worst, tolerance);
   EXPECT_LE(worst_gradient, 100 * tolerance);
   EXPECT_GE(smooth, static_cast<int>(points.size()) / 2);
@@ -61,7 +61,8 @@ std::string placed(const PrimitiveNode& primitive, bool is_signed, const std::st
 TEST(Primitives, AreTheReferencesOfEitherLawAndUnderAnyMap) {
   for (const PrimitiveNode& primitive : test_support::primitive_nodes()) {
     for (const bool is_signed : {false, true}) {
-      for (const char* map : kMaps) expect_as_reference(absl::StrCat("[", placed(primitive, is_signed, map), "]"), 3e-6);
+      for (const char* map : kMaps)
+        expect_as_reference(absl::StrCat("[", placed(primitive, is_signed, map), "]"), 3e-6);
     }
   }
 }
@@ -71,8 +72,11 @@ TEST(Primitives, BlendByTheirGradientsAsTheReferenceDoes) {
   for (const PrimitiveNode& primitive : test_support::primitive_nodes()) {
     for (const char* map : {kMaps[0], kMaps[2]}) {
       const std::string first = placed(primitive, false, map);
-      expect_as_reference(absl::StrCat("[", first, R"(, {"sphere": {"center": [0.6, 0.5, 0.2], "radius": 0.6, "range": 0.7}},
-          {"gradient": {"children": [")", *map == 0 ? "p" : "placed", R"(", "#)", *map == 0 ? 1 : 2, R"("]}}])"), 5e-6);
+      expect_as_reference(
+          absl::StrCat("[", first, R"(, {"sphere": {"center": [0.6, 0.5, 0.2], "radius": 0.6, "range": 0.7}},
+          {"gradient": {"children": [")",
+                       *map == 0 ? "p" : "placed", R"(", "#)", *map == 0 ? 1 : 2, R"("]}}])"),
+          5e-6);
     }
   }
 }

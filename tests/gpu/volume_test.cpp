@@ -231,7 +231,8 @@ TEST(OperatorVolume, LooksUpAsTheReferenceDoes) {
   expect_as_reference(gradient(16), 16, operators::gradient_nodes({}, 16), Continuation::kAboutBoundary);
   const operators::Operator op =
       sampled(9, [](double f1, double f2, double theta) { return analytic(f1, f2, theta).g; });
-  expect_as_reference(op, 9, operators::sampled_nodes(*op.as<operators::Sampled>()->samples), Continuation::kAboutOrigin);
+  expect_as_reference(op, 9, operators::sampled_nodes(*op.as<operators::Sampled>()->samples),
+                      Continuation::kAboutOrigin);
 }
 
 TEST(OperatorVolume, LeavesAFieldAloneWhereTheOtherIsZero) {

@@ -9,8 +9,8 @@
 namespace isofield::test_support {
 
 struct PrimitiveNode {
-  const char* kind;   // the field of the message Node
-  const char* body;   // the node's body without law and range
+  const char* kind;  // the field of the message Node
+  const char* body;  // the node's body without law and range
   bool is_bounded = true;
 
   // {"name": "NAME", "KIND": {BODY, range or law}}

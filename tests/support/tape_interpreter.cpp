@@ -48,9 +48,8 @@ operators::Operator operator_of(const Instruction& i, const blobtree::Operation&
 FieldState TapeInterpreter::leaf(const Instruction& i, const blobtree::dvec3& p) const {
   if (!i.is_leaf()) return {};  // Operand::kZero
   const blobtree::Leaf& leaf = tape_.leaves.at(i.index);
-  const FieldState v =
-      reference::evaluate_primitive({leaf.shape, leaf.range, leaf.law, leaf.place.to_local, leaf.place.anchor,
-                                     leaf.place.to_local}, p);
+  const FieldState v = reference::evaluate_primitive(
+      {leaf.shape, leaf.range, leaf.law, leaf.domain.to_local, leaf.domain.anchor, leaf.domain.to_local}, p);
   return leaf.law == operators::Law::kSigned ? linear(v, leaf.per_distance, 0) : v;
 }
 

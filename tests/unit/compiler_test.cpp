@@ -101,10 +101,10 @@ TEST(Compiler, DisjointIntersectionHasNoSupport) {
 
 // Two spheres joined as told, below a transform.
 Tape transformed(const std::string& join, const std::string& transform) {
-  return compile_or_die(read_or_die(scene_of_nodes(R"({"sphere": {"radius": 0.5, "range": 0.5}},
+  return compile_or_die(read_or_die(
+      scene_of_nodes(R"({"sphere": {"radius": 0.5, "range": 0.5}},
     {"sphere": {"center": [0.5,0,0], "radius": 0.5, "range": 0.5}}, {)" +
-                                                   join + R"(: {"children": ["#0","#1"]}}, {"transform": {"child": "#2", )" +
-                                                   transform + "}}")));
+                     join + R"(: {"children": ["#0","#1"]}}, {"transform": {"child": "#2", )" + transform + "}}")));
 }
 
 TEST(Compiler, OnlyMapsThatChangeAnglesAboveBlendsThatFollowThemMakeFrames) {

@@ -63,7 +63,7 @@ TEST(Depth, ChainsOfTransformsAreReadAndCompiled) {
   }
   const Scene scene = read_or_die(message);
   const Tape tape = compile_or_die(scene);
-  EXPECT_NEAR(tape.leaves.at(0).place.anchor.x, 100, 1e-6);
+  EXPECT_NEAR(tape.leaves.at(0).domain.anchor.x, 100, 1e-6);
   EXPECT_NEAR(reference::Evaluator(scene).value({100.5, 0, 0}), 0.5, 1e-6);
 }
 

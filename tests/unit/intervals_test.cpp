@@ -56,8 +56,8 @@ TEST(Intervals, OfSmoothGradientBlendsAreReached) {
 }
 
 Operation functional_of(std::vector<double> x, std::vector<double> h) {
-  auto op = std::make_shared<operators::Operator>(
-      operators::Functional{operators::SampledCurve(std::move(x), std::move(h))});
+  auto op =
+      std::make_shared<operators::Operator>(operators::Functional{operators::SampledCurve(std::move(x), std::move(h))});
   operators::SilhouetteBounds silhouettes;
   return operation_of(std::move(op), operators::Law::kSigned, 2, silhouettes);
 }

@@ -1,11 +1,10 @@
-#include "blobtree/primitives/leaf.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "blobtree/primitives/leaf.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 
@@ -33,7 +32,7 @@ TEST(LeafBounds, HoldAtRandomPointsOfRandomBoxes) {
         // On the skeleton, where the distance has no gradient, too.
         if (leaf.operand == Operand::kSegment && n == 0) {
           const double along = std::get<shapes::Segment>(leaf.shape).length * random.number(-0.1, 1.1);
-          centre = leaf.place.anchor + leaf.place.to_local.linear[2] * along;
+          centre = leaf.domain.anchor + leaf.domain.to_local.linear[2] * along;
         }
         const double size = std::exp(random.number(-6, 0.5));
         const dvec3 half = random.point(0, size);

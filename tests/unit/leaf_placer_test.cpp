@@ -1,11 +1,10 @@
-#include "blobtree/primitives/leaf.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
 #include "blobtree/primitives/falloff.h"
+#include "blobtree/primitives/leaf.h"
 #include "blobtree/scene/scene_reader.h"
 #include "blobtree/tape/compiler.h"
 #include "support/random_scene.h"
@@ -97,7 +96,7 @@ TEST(LeafPlacer, StretchBoundsTheSlopeOfTheDistance) {
     for (const Leaf& leaf : tape.leaves) {
       for (int i = 0; i < 50; ++i) {
         const dvec3 p = random.point(-3, 3), q = p + random.point(-0.3, 0.3);
-        ASSERT_LE(std::abs(leaf.distance(p) - leaf.distance(q)), leaf.stretch * length(p - q) * (1 + 1e-9));
+        ASSERT_LE(std::abs(leaf.distance(p) - leaf.distance(q)), leaf.domain.stretch * length(p - q) * (1 + 1e-9));
       }
     }
   }
@@ -109,13 +108,13 @@ TEST(LeafPlacer, SimilarPlacementsAreRigid) {
          {"transform": {"child": "#0", "scale": [3,-3,3], "rotation": [1,2,3,40], "translation": [5,6,7]}})")));
   const Leaf& leaf = tape.leaves[0];
   EXPECT_EQ(leaf.operand, Operand::kSegment);
-  EXPECT_EQ(leaf.stretch, 1);
-  EXPECT_TRUE(leaf.place.is_rigid);
+  EXPECT_EQ(leaf.domain.stretch, 1);
+  EXPECT_TRUE(leaf.domain.is_rigid);
   EXPECT_NEAR(std::get<shapes::Segment>(leaf.shape).length, 9, 1e-12);
   EXPECT_NEAR(std::get<shapes::Segment>(leaf.shape).radius_a, 1.5, 1e-12);
   EXPECT_NEAR(leaf.range, 0.75, 1e-12);
-  EXPECT_NEAR(leaf.place.to_local.stretch().least, 1, 1e-12);
-  EXPECT_NEAR(leaf.place.to_local.stretch().most, 1, 1e-12);
+  EXPECT_NEAR(leaf.domain.to_local.stretch().least, 1, 1e-12);
+  EXPECT_NEAR(leaf.domain.to_local.stretch().most, 1, 1e-12);
 }
 
 TEST(LeafPlacer, UniformScaleMayBeLargeOrSmall) {

@@ -38,9 +38,9 @@ TEST(ParameterEdit, TakesTheNamesOfTheContractAndOfJson) {
 }
 
 TEST(ParameterEdit, AWrongFieldIsToldWithTheNearestAndAll) {
-  expect_refused({"bar", "radius_c", {1}}, {"bar.radius_c: a node of kind segment has no such numeric field",
-                                            "did you mean 'radius_a'?",
-                                            "expected one of a, b, radius_a, radius_b, range"});
+  expect_refused({"bar", "radius_c", {1}},
+                 {"bar.radius_c: a node of kind segment has no such numeric field", "did you mean 'radius_a'?",
+                  "expected one of a, b, radius_a, radius_b, range"});
   expect_refused({"all", "opening.alfa0", {1}},
                  {"a node of kind gradient has no such", "did you mean 'opening.alpha0'?", "silhouette.k"});
   expect_refused({"all", "opening", {1}}, {"all.opening: a node of kind gradient has no such", "opening.theta0"});

@@ -59,8 +59,9 @@ TEST(Primitives, HoldTheirBoundsAndSupports) {
   for (const PrimitiveNode& primitive : test_support::primitive_nodes()) {
     for (const bool is_signed : {false, true}) {
       for (const char* scale : {"[1]", "[1.4, 0.6, 1]"}) {
-        const Leaf leaf = leaf_of(primitive.text("p", is_signed) +
-                                  R"(, {"transform": {"child": "p", "rotation": [1, 2, 3, 50], "scale": )" + scale + "}}");
+        const Leaf leaf =
+            leaf_of(primitive.text("p", is_signed) +
+                    R"(, {"transform": {"child": "p", "rotation": [1, 2, 3, 50], "scale": )" + scale + "}}");
         Random random(3);
         for (int n = 0; n < 3000; ++n) {
           const dvec3 centre = random.point(-2, 2), half = random.point(0, std::exp(random.number(-6, 0.5)));
@@ -100,11 +101,13 @@ TEST(HalfSpace, BoundsWhatItIsIntersectedWith) {
   const Tape cut = compile_or_die(read_or_die(scene_of_nodes("[" + nodes + R"({"min": {"children": ["#0", "#1"]}}])")));
   EXPECT_NEAR(cut.support.max.x, 0.25, 1e-5);
   EXPECT_NEAR(cut.support.min.x, -1.5, 1e-5);
-  const Tape both = compile_or_die(read_or_die(scene_of_nodes("[" + nodes + R"({"max": {"children": ["#0", "#1"]}}])")));
+  const Tape both =
+      compile_or_die(read_or_die(scene_of_nodes("[" + nodes + R"({"max": {"children": ["#0", "#1"]}}])")));
   EXPECT_FALSE(both.support.is_bounded());
 }
 
-// The distance of a point of the half-plane of (rho, z) to the outline of a trapezoid, segment by segment; negative inside.
+// The distance of a point of the half-plane of (rho, z) to the outline of a trapezoid, segment by segment; negative
+// inside.
 double distance_to_outline(const shapes::Cone& c, double rho, double z) {
   const double h = c.half_length;
   const double x[] = {0, c.radius_a, c.radius_b, 0}, y[] = {-h, -h, h, h};

@@ -271,7 +271,8 @@ TEST(SceneReader, DefaultsAndPresetsAreFilledIn) {
   EXPECT_EQ(o.alpha1, operators::organic().alpha1);
   EXPECT_NEAR(o.alpha2, 150 * kDegree, 1e-15);
   EXPECT_NEAR(o.theta0, 10 * kDegree, 1e-15);
-  EXPECT_EQ(scene->nodes[3].op->as<operators::Gradient>()->silhouette, (operators::Silhouette{operators::Silhouette::Kind::kBulge, 0.25}));
+  EXPECT_EQ(scene->nodes[3].op->as<operators::Gradient>()->silhouette,
+            (operators::Silhouette{operators::Silhouette::Kind::kBulge, 0.25}));
   EXPECT_NEAR(scene->nodes[4].op->opening()->theta2, 6 * kDegree, 1e-15);
   EXPECT_EQ(scene->nodes[4].op->opening()->w1, 8);
 }

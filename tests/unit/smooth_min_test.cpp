@@ -61,8 +61,8 @@ TEST(SmoothMin, IsReadWithItsRadius) {
   const std::string balls = R"([{"sphere": {"radius": 1, "law": "SIGNED"}},
       {"sphere": {"center": [1, 0, 0], "radius": 1, "law": "SIGNED"}}, )";
   const auto read = [&](const std::string& body) {
-    return blobtree::read_scene(
-        test_support::scene_of_nodes(balls + R"({"name": "s", "smooth_min": {"children": ["#0", "#1"])" + body + "}}]"));
+    return blobtree::read_scene(test_support::scene_of_nodes(
+        balls + R"({"name": "s", "smooth_min": {"children": ["#0", "#1"])" + body + "}}]"));
   };
   const auto scene = read(R"(, "radius": 0.5, "form": "INTERSECTION")");
   ASSERT_TRUE(scene.ok()) << scene.status();

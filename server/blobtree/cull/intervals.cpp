@@ -90,7 +90,7 @@ int lone_operand(const Operation& o, const Mode& mode, Interval a, Interval b) {
   if (mode.form != Form::kUnion) a = complement(a, true);
   if (mode.form == Form::kIntersection) b = complement(b, true);
   const int lone = o.what->visit([&]<class K>(const K& kind) {
-    if constexpr (operators::IsSigned<K> && operators::IsFolded<K>) {
+    if constexpr (operators::KnowsALoneOperand<K>) {
       return kind.lone_operand(a, b);
     } else {
       return -1;

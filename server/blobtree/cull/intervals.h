@@ -21,8 +21,7 @@ Interval binary_interval(Opcode op, const Operation& o, const Mode& mode, Interv
 Interval joint_interval(const Operation& o, const Mode& mode, std::uint32_t mask, std::vector<Interval> operands);
 
 // Which of the operands in `mask` can make a difference to a joint operator of such operands.
-std::uint32_t active_operands(const Operation& o, const Mode& mode, std::uint32_t mask,
-                              std::vector<Interval> operands);
+std::uint32_t active_operands(const Operation& o, const Mode& mode, std::uint32_t mask, std::vector<Interval> operands);
 
 // The operand, 0 or 1, that alone makes the result, over its weight; or -1 where both may. `a` and `b` as for
 // binary_interval.

@@ -16,7 +16,7 @@ std::uint32_t nearest(const Tape& tape, std::span<const Instruction> code, const
     const Leaf& leaf = tape.leaves[i.index];
     const double d = leaf.distance(p);
     if (leaf.law == operators::Law::kPositive && d >= leaf.range) continue;
-    const double far = std::abs(d) / leaf.stretch;
+    const double far = std::abs(d) / leaf.domain.stretch;
     if (far < least) {
       least = far;
       found = i.index;

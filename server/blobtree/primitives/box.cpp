@@ -36,16 +36,16 @@ double Box::growth() const {
   return 1;
 }
 
-blobtree::Box Box::support(const Affine& place, double range) const {
-  return box_image(place, half + dvec3(range));
+blobtree::Box Box::support(const Affine& to_world, double range) const {
+  return box_image(to_world, half + dvec3(range));
 }
 
 Operand Box::operand(bool) const {
   return Operand::kBox;
 }
 
-void Box::write(const Place& place, Operand, Float4* out) const {
-  write_rows(place, half.x - rounding, half.y - rounding, half.z - rounding, out);
+void Box::write(const Domain& domain, Slope slope, Operand, Float4* out) const {
+  write_rows(domain, slope, half.x - rounding, half.y - rounding, half.z - rounding, out);
   out[4] = {f32(rounding), 0, 0, 0};
 }
 

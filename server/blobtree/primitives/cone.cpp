@@ -52,11 +52,11 @@ double Cone::growth() const {
   return 1;
 }
 
-blobtree::Box Cone::support(const Affine& place, double range) const {
+blobtree::Box Cone::support(const Affine& to_world, double range) const {
   // The hull of two discs, each of which grows by the range on all sides.
   const auto disc = [&](double z, double radius) {
-    Affine at = place;
-    at.offset = place.point({0, 0, z});
+    Affine at = to_world;
+    at.offset = to_world.point({0, 0, z});
     return box_image(at, {radius + range, radius + range, range});
   };
   blobtree::Box box = disc(-half_length, radius_a);
@@ -68,9 +68,9 @@ Operand Cone::operand(bool) const {
   return Operand::kCone;
 }
 
-void Cone::write(const Place& place, Operand, Float4* out) const {
+void Cone::write(const Domain& domain, Slope slope, Operand, Float4* out) const {
   const Side s = side();
-  write_rows(place, half_length, radius_a, radius_b, out);
+  write_rows(domain, slope, half_length, radius_a, radius_b, out);
   out[4] = {f32(s.normal_rho), f32(s.normal_z), f32(s.length), 0};
 }
 

@@ -19,8 +19,8 @@ struct Cone {
 
   double half_length = 0, radius_a = 0, radius_b = 0;  // radius_a at z = -half_length
 
-  // Exact everywhere. In the half-plane of (rho, z) the solid is a trapezoid: a point is nearest to an end, to the side,
-  // or to one of the two rims between them.
+  // Exact everywhere. In the half-plane of (rho, z) the solid is a trapezoid: a point is nearest to an end, to the
+  // side, or to one of the two rims between them.
   template <class V>
   typename V::value_type distance(const V& q) const {
     using base::value_of, std::max, std::sqrt;
@@ -40,7 +40,8 @@ struct Cone {
     return off_side;
   }
 
-  // The line of the side in that half-plane, from the rim of radius_a to that of radius_b: its outward normal and length.
+  // The line of the side in that half-plane, from the rim of radius_a to that of radius_b: its outward normal and
+  // length.
   struct Side {
     double normal_rho, normal_z, length;
   };
@@ -55,9 +56,9 @@ struct Cone {
   double least_radius() const;
   double area() const;
   double growth() const;
-  blobtree::Box support(const Affine& place, double range) const;
+  blobtree::Box support(const Affine& to_world, double range) const;
   Operand operand(bool is_rigid) const;
-  void write(const Place& place, Operand operand, Float4* out) const;
+  void write(const Domain& domain, Slope slope, Operand operand, Float4* out) const;
 };
 
 }  // namespace isofield::blobtree::shapes

@@ -39,16 +39,16 @@ double Cylinder::growth() const {
   return 1;
 }
 
-blobtree::Box Cylinder::support(const Affine& place, double range) const {
-  return box_image(place, {radius + range, radius + range, half_length + range});
+blobtree::Box Cylinder::support(const Affine& to_world, double range) const {
+  return box_image(to_world, {radius + range, radius + range, half_length + range});
 }
 
 Operand Cylinder::operand(bool) const {
   return Operand::kCylinder;
 }
 
-void Cylinder::write(const Place& place, Operand, Float4* out) const {
-  write_rows(place, half_length, radius, 0, out);
+void Cylinder::write(const Domain& domain, Slope slope, Operand, Float4* out) const {
+  write_rows(domain, slope, half_length, radius, 0, out);
 }
 
 }  // namespace isofield::blobtree::shapes

@@ -34,17 +34,17 @@ double Ellipsoid::growth() const {
   return largest() / least();
 }
 
-blobtree::Box Ellipsoid::support(const Affine& place, double range) const {
-  return ellipsoid_image(place, semi_axes * (1 + range / least()));
+blobtree::Box Ellipsoid::support(const Affine& to_world, double range) const {
+  return ellipsoid_image(to_world, semi_axes * (1 + range / least()));
 }
 
 Operand Ellipsoid::operand(bool) const {
   return Operand::kEllipsoid;
 }
 
-void Ellipsoid::write(const Place& place, Operand, Float4* out) const {
+void Ellipsoid::write(const Domain& domain, Slope slope, Operand, Float4* out) const {
   // A sphere of the least radius under a map that is scaled further.
-  write_rows(place, least(), 0, 0, out);
+  write_rows(domain, slope, least(), 0, 0, out);
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) out[row + 1][column] *= f32(least() / semi_axes[row]);
   }

@@ -33,15 +33,15 @@ double HalfSpace::growth() const {
   return 1;
 }
 
-blobtree::Box HalfSpace::support(const Affine& place, double range) const {
+blobtree::Box HalfSpace::support(const Affine& to_world, double range) const {
   blobtree::Box box = blobtree::Box::everywhere();
-  const std::optional<Affine> inverse = place.inverse();
+  const std::optional<Affine> inverse = to_world.inverse();
   if (!inverse) return box;
   // Where the plane faces along an axis, that axis ends at the plane, a range further out.
   const dvec3& normal = inverse->linear[2];
   for (int axis = 0; axis < 3; ++axis) {
     if (normal[axis] == 0 || normal[(axis + 1) % 3] != 0 || normal[(axis + 2) % 3] != 0) continue;
-    const double end = place.offset[axis] + range / normal[axis];
+    const double end = to_world.offset[axis] + range / normal[axis];
     (normal[axis] > 0 ? box.max : box.min)[axis] = end;
   }
   return box;
@@ -51,15 +51,15 @@ Operand HalfSpace::operand(bool) const {
   return Operand::kHalfSpace;
 }
 
-void HalfSpace::write(const Place& place, Operand, Float4* out) const {
-  const dvec3& normal = place.to_local.linear[2];
-  out[0] = {f32(place.anchor.x), f32(place.anchor.y), f32(place.anchor.z), place.slope};
+void HalfSpace::write(const Domain& domain, Slope slope, Operand, Float4* out) const {
+  const dvec3& normal = domain.to_local.linear[2];
+  out[0] = {f32(domain.anchor.x), f32(domain.anchor.y), f32(domain.anchor.z), slope};
   out[1] = {f32(normal.x), f32(normal.y), f32(normal.z), 0};
 }
 
-std::optional<Interval> HalfSpace::box_bounds(const Place& place, const CentredBox& box) const {
-  const dvec3& normal = place.to_local.linear[2];
-  const double d = dot(normal, box.centre - place.anchor), reach = dot(abs(normal), box.half);
+std::optional<Interval> HalfSpace::box_bounds(const Domain& domain, const CentredBox& box) const {
+  const dvec3& normal = domain.to_local.linear[2];
+  const double d = dot(normal, box.centre - domain.anchor), reach = dot(abs(normal), box.half);
   return Interval{d - reach, d + reach};
 }
 

@@ -1,37 +1,17 @@
-// What every kind of primitive says of itself. primitive.h has the table of all kinds; server/README.md tells how to add
-// one.
-//
-// A kind is a struct of its lengths in a frame of its own, with these members:
-//   kTraits                       what holds of every primitive of the kind
-//   read(message, in, frame)      reads them from the kind's message; `frame` leads from its own frame to the node's, and
-//                                 refusals go to `in`
-//   distance(q)                   the signed distance of a point, a template over the vector: the canonical definition,
-//                                 which culling evaluates in double precision, reference/ differentiates automatically,
-//                                 and the kind's .glsl mirrors with derivatives by hand
-//   scaled(factor)                the same shape in lengths so many times as long
-//   largest()                     its largest length
-//   own_lengths()                 the sum of those lengths that a distance is computed from, of which float32 rounds a part
-//   least_radius()                its feature size: half the thickness of its thinnest part
-//   area()                        roughly, that of its surface; 0 where it has no end
-//   growth()                      the most that a point's way to the surface is longer than its distance says
-//   support(place, range)         a box of the world that holds every point of a distance of at most `range`, for a shape
-//                                 that lies as `place` says
-//   operand(is_rigid)             what an instruction of a tape holds of it; of one that keeps lengths, where is_rigid
-//   write(place, operand, out)    the record of that operand, which the kind's .glsl reads
-// and where a distance's bounds over a box are tighter than its slope tells
-//   box_bounds(place, box)
+// What every kind of primitive says of itself. primitive.h has the table of all kinds; server/README.md tells how to
+// add one.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string_view>
 
 #include "base/field_reader.h"
 #include "base/float4.h"
 #include "base/interval.h"
-#include "blobtree/geometry/affine.h"
 #include "blobtree/geometry/box.h"
+#include "blobtree/primitives/domain.h"
 
 namespace isofield::blobtree {
 
@@ -48,25 +28,57 @@ struct PrimitiveTraits {
 // The right operand of an instruction (primitive.h).
 enum class Operand : std::uint8_t;
 
-// Where a leaf lies: the point p of the world is q = to_local (p - anchor) in the shape's own frame.
-struct Place {
-  Affine to_local;  // linear part only
-  dvec3 anchor;
-  bool is_rigid = false;  // to_local keeps lengths
-  // What the kernels make a field of a distance with: how fast the argument of the falloff grows with it, or of a signed
-  // field minus what it is multiplied by.
-  float slope = 0;
-};
+// What kernels make a field of a distance with: how fast the argument of the falloff grows with it; of a signed field
+// minus what it is multiplied by.
+using Slope = float;
 
-// The first four vec4s of the record of a shape under any affine map: the anchor with the slope, and the rows of the map
-// with three numbers of the shape's own beside them.
-inline void write_rows(const Place& place, double p0, double p1, double p2, Float4* out) {
-  const auto& m = place.to_local.linear;
-  out[0] = {f32(place.anchor.x), f32(place.anchor.y), f32(place.anchor.z), place.slope};
+// The first four vec4s of the record of a shape in any affine domain: the anchor with the slope, and the rows of the
+// map with three numbers of the shape's own beside them.
+inline void write_rows(const Domain& domain, Slope slope, double p0, double p1, double p2, Float4* out) {
+  const auto& m = domain.to_local.linear;
+  out[0] = {f32(domain.anchor.x), f32(domain.anchor.y), f32(domain.anchor.z), slope};
   out[1] = {f32(m[0].x), f32(m[0].y), f32(m[0].z), f32(p0)};
   out[2] = {f32(m[1].x), f32(m[1].y), f32(m[1].z), f32(p1)};
   out[3] = {f32(m[2].x), f32(m[2].y), f32(m[2].z), f32(p2)};
 }
+
+// A kind is a struct of its lengths in a frame of its own. Beside what stands here it has
+//   static K read(message, FieldReader& in, Affine& frame)
+// which reads them from the kind's message; `frame` leads from its own frame to the node's, and refusals go to `in`.
+template <class K>
+concept PrimitiveKind = requires(const K& kind, const dvec3& q, const Affine& to_world, const Domain& domain,
+                                 Slope slope, Operand operand, double number, bool is_rigid, Float4* out) {
+  { K::kTraits } -> std::convertible_to<PrimitiveTraits>;
+  // The signed distance of a point, a template over the vector. It is the canonical definition: culling evaluates it in
+  // double precision, reference/ differentiates it automatically, and the kind's .glsl mirrors it with derivatives by
+  // hand.
+  { kind.distance(q) } -> std::same_as<double>;
+  // The same shape in lengths `number` times as long.
+  { kind.scaled(number) } -> std::same_as<K>;
+  { kind.largest() } -> std::same_as<double>;  // of its lengths
+  // The sum of those lengths that a distance is computed from: float32 rounds a part of it.
+  { kind.own_lengths() } -> std::same_as<double>;
+  // Its feature size: half the thickness of its thinnest part.
+  { kind.least_radius() } -> std::same_as<double>;
+  // Roughly the area of its surface; 0 where it has no end.
+  { kind.area() } -> std::same_as<double>;
+  // The most that a point's way to the surface is longer than its distance says.
+  { kind.growth() } -> std::same_as<double>;
+  // A box of the world that holds every point of a distance of at most `number`, where the map leads the shape's frame
+  // to the world.
+  { kind.support(to_world, number) } -> std::same_as<Box>;
+  // What an instruction of a tape holds of it, in a domain that keeps lengths or in any.
+  { kind.operand(is_rigid) } -> std::same_as<Operand>;
+  // Writes the record of that operand, which the kind's .glsl reads.
+  { kind.write(domain, slope, operand, out) } -> std::same_as<void>;
+};
+
+// A kind whose distance over a box has bounds that are tighter than its slope tells; nothing where the domain is not
+// one for them.
+template <class K>
+concept HasBoxBounds = requires(const K& kind, const Domain& domain, const CentredBox& box) {
+  { kind.box_bounds(domain, box) } -> std::same_as<std::optional<Interval>>;
+};
 
 // The box of the image of a box, and of an ellipsoid, around the shape's own origin.
 Box box_image(const Affine& to_world, const dvec3& half);

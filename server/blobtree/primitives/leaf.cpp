@@ -45,16 +45,16 @@ absl::Status refuse_place(const std::string& path, const Affine& place, const Af
 }  // namespace
 
 double Leaf::distance(const dvec3& p) const {
-  const dvec3 q = place.to_local.vector(p - place.anchor);
+  const dvec3 q = domain.point(p);
   return std::visit([&](const auto& s) { return s.distance(q); }, shape);
 }
 
 double Leaf::feature_size(double offset) const {
-  return (std::visit([](const auto& s) { return s.least_radius(); }, shape) + offset) / stretch;
+  return (std::visit([](const auto& s) { return s.least_radius(); }, shape) + offset) / domain.stretch;
 }
 
 double Leaf::area() const {
-  const double scale = stretch == 1 ? 1 : growth;
+  const double scale = domain.stretch == 1 ? 1 : growth;
   return std::visit([](const auto& s) { return s.area(); }, shape) * scale * scale;
 }
 
@@ -65,8 +65,8 @@ absl::StatusOr<Leaf> place_leaf(const Primitive& primitive, const Affine& to_wor
   leaf.range = primitive.range;
   leaf.law = primitive.law;
   const Affine::Stretch stretch = place.stretch();
-  leaf.place.is_rigid = stretch.most - stretch.least <= kStretchRounding * stretch.most;
-  if (leaf.place.is_rigid) {
+  leaf.domain.is_rigid = stretch.most - stretch.least <= kStretchRounding * stretch.most;
+  if (leaf.domain.is_rigid) {
     // Distances scale with the map: scale the lengths instead and keep the placement rigid.
     const double factor = stretch.most;
     leaf.shape = std::visit([&](const auto& s) -> Shape { return s.scaled(factor); }, leaf.shape);
@@ -88,12 +88,11 @@ absl::StatusOr<Leaf> place_leaf(const Primitive& primitive, const Affine& to_wor
       !near_enough(place.offset.z)) {
     return refuse_place(path, place, stretch, is_signed);
   }
-  leaf.place.anchor = place.offset;
-  leaf.place.to_local = {inverse->linear, {}};
-  leaf.place.slope = is_signed ? f32(-leaf.per_distance) : f32((1 - kR0) / leaf.range);
-  leaf.stretch = leaf.place.is_rigid ? 1 : 1 / stretch.least;
+  leaf.domain.anchor = place.offset;
+  leaf.domain.to_local = {inverse->linear, {}};
+  leaf.domain.stretch = leaf.domain.is_rigid ? 1 : 1 / stretch.least;
   leaf.growth = stretch.most * std::visit([](const auto& s) { return s.growth(); }, primitive.shape);
-  leaf.operand = std::visit([&](const auto& s) { return s.operand(leaf.place.is_rigid); }, leaf.shape);
+  leaf.operand = std::visit([&](const auto& s) { return s.operand(leaf.domain.is_rigid); }, leaf.shape);
   leaf.support = std::visit([&](const auto& s) { return s.support(place, leaf.range); }, leaf.shape);
   pad(leaf.support);
   return leaf;
@@ -101,14 +100,14 @@ absl::StatusOr<Leaf> place_leaf(const Primitive& primitive, const Affine& to_wor
 
 Interval distance_bounds(const Leaf& leaf, const CentredBox& box) {
   const dvec3 c = abs(box.centre);
-  const double size = std::max({c.x, c.y, c.z, box.radius}) * leaf.stretch;
+  const double size = std::max({c.x, c.y, c.z, box.radius}) * leaf.domain.stretch;
   return std::visit(
       [&]<class S>(const S& shape) {
         const double room = kLengthRoom * (size + leaf.range + shape.own_lengths());
         std::optional<Interval> exact;
-        if constexpr (requires { shape.box_bounds(leaf.place, box); }) exact = shape.box_bounds(leaf.place, box);
+        if constexpr (HasBoxBounds<S>) exact = shape.box_bounds(leaf.domain, box);
         if (!exact) {
-          const double d = leaf.distance(box.centre), reach = box.radius * leaf.stretch;
+          const double d = leaf.distance(box.centre), reach = box.radius * leaf.domain.stretch;
           exact = {d - reach, d + reach};
         }
         return Interval{exact->lo - room, exact->hi + room};
@@ -128,7 +127,9 @@ bool vanishes(const Leaf& leaf, const Box& box) {
 }
 
 void write_leaf(const Leaf& leaf, Float4* out) {
-  std::visit([&](const auto& s) { s.write(leaf.place, leaf.operand, out); }, leaf.shape);
+  const bool is_signed = leaf.law == operators::Law::kSigned;
+  const Slope slope = f32(is_signed ? -leaf.per_distance : (1 - kR0) / leaf.range);
+  std::visit([&](const auto& s) { s.write(leaf.domain, slope, leaf.operand, out); }, leaf.shape);
 }
 
 }  // namespace isofield::blobtree

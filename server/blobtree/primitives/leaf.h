@@ -13,12 +13,11 @@ namespace isofield::blobtree {
 
 struct Leaf {
   Operand operand = Operand::kZero;
-  Shape shape;  // in lengths of the world where its place is rigid
+  Shape shape;  // in lengths of the world where its domain is rigid
   operators::Law law = operators::Law::kPositive;
   double range = 0;         // of a positive field
   double per_distance = 1;  // signed: the field is the distance times this
-  Place place;
-  double stretch = 1;  // most that its place stretches lengths, from the world to the shape: bounds the distance's slope
+  Domain domain;
   // Positive: holds every point where the field is not 0, with room for float32 rounding. Signed: the shape itself.
   Box support;
   double growth = 1;         // signed: where the field is at most r, the box grown by r times this holds the point
@@ -28,8 +27,8 @@ struct Leaf {
   // The signed distance at a point of the world, in the shape's own lengths.
   double distance(const dvec3& p) const;
   bool may_crease() const { return traits_of(shape).may_crease; }
-  // Half the thickness of its thinnest part, in the world, where the distance is `offset` (in the shape's own lengths); 0 or
-  // less where there is nothing left of it.
+  // Half the thickness of its thinnest part, in the world, where the distance is `offset` (in the shape's own lengths);
+  // 0 or less where there is nothing left of it.
   double feature_size(double offset) const;
   // Roughly the area of its surface, in the world.
   double area() const;

@@ -81,6 +81,10 @@ using VariantOf = std::variant<Kinds...>;
 using Shape = VariantOf<void ISOFIELD_PRIMITIVES(ISOFIELD_TYPE)>;
 #undef ISOFIELD_TYPE
 
+#define ISOFIELD_CHECK(Name, ...) static_assert(PrimitiveKind<shapes::Name>);
+ISOFIELD_PRIMITIVES(ISOFIELD_CHECK)
+#undef ISOFIELD_CHECK
+
 #define ISOFIELD_TRAITS(Name, ...) shapes::Name::kTraits,
 inline constexpr std::array kShapes{ISOFIELD_PRIMITIVES(ISOFIELD_TRAITS)};
 #undef ISOFIELD_TRAITS

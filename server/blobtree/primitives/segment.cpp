@@ -19,9 +19,9 @@ struct NearestSphere {
   dvec3 offset;
   double radius;
 };
-NearestSphere nearest_sphere(const Segment& s, const Place& place, const dvec3& p) {
-  const dvec3 v = p - place.anchor;
-  const dvec3& axis = place.to_local.linear[2];
+NearestSphere nearest_sphere(const Segment& s, const Domain& domain, const dvec3& p) {
+  const dvec3 v = p - domain.anchor;
+  const dvec3& axis = domain.to_local.linear[2];
   if (s.is_sphere()) return {s.sphere_centre() == 0 ? v : v - axis * s.length, s.largest_radius()};
   const double sin_tilt = (s.radius_a - s.radius_b) / s.length;
   const double tan_tilt = sin_tilt / std::sqrt(1 - sin_tilt * sin_tilt);
@@ -30,8 +30,8 @@ NearestSphere nearest_sphere(const Segment& s, const Place& place, const dvec3& 
   return {v - axis * c, s.radius_a - c * sin_tilt};
 }
 
-// As records hold a round cone: the slope of its radius and the tangent of its tilt. An end that contains the other is a
-// sphere.
+// As records hold a round cone: the slope of its radius and the tangent of its tilt. An end that contains the other is
+// a sphere.
 struct RoundCone {
   double centre, length, radius, slope, tan;
 };
@@ -74,15 +74,15 @@ double Segment::growth() const {
   return 1;
 }
 
-blobtree::Box Segment::support(const Affine& place, double range) const {
+blobtree::Box Segment::support(const Affine& to_world, double range) const {
   // The hull of two spheres is far tighter than the box of a tilted box.
   const auto ball = [&](const dvec3& centre, double r) {
-    Affine at = place;
+    Affine at = to_world;
     at.offset = centre;
     return ellipsoid_image(at, {r, r, r});
   };
-  blobtree::Box box = ball(place.offset, radius_a + range);
-  box.add(ball(place.point({0, 0, length}), radius_b + range));
+  blobtree::Box box = ball(to_world.offset, radius_a + range);
+  box.add(ball(to_world.point({0, 0, length}), radius_b + range));
   return box;
 }
 
@@ -90,25 +90,25 @@ Operand Segment::operand(bool is_rigid) const {
   return is_rigid ? Operand::kSegment : Operand::kAffineSegment;
 }
 
-void Segment::write(const Place& place, Operand operand, Float4* out) const {
+void Segment::write(const Domain& domain, Slope slope, Operand operand, Float4* out) const {
   const RoundCone c = cone_of(*this);
-  const dvec3& axis = place.to_local.linear[2];
-  dvec3 a = place.anchor;
+  const dvec3& axis = domain.to_local.linear[2];
+  dvec3 a = domain.anchor;
   if (operand == Operand::kAffineSegment) {
-    write_rows(place, c.length, c.radius, c.slope, out);
+    write_rows(domain, slope, c.length, c.radius, c.slope, out);
     // The centre of an end that contains the other lies at its place along the axis.
-    if (c.centre != 0) a = a + place.to_local.inverse()->vector({0, 0, c.centre});
+    if (c.centre != 0) a = a + domain.to_local.inverse()->vector({0, 0, c.centre});
   } else {
     a = a + axis * c.centre;
     out[1] = {f32(axis.x), f32(axis.y), f32(axis.z), f32(c.length)};
     out[2] = {f32(c.radius), f32(c.slope), f32(c.tan), 0};
   }
-  out[0] = {f32(a.x), f32(a.y), f32(a.z), place.slope};
+  out[0] = {f32(a.x), f32(a.y), f32(a.z), slope};
 }
 
-std::optional<Interval> Segment::box_bounds(const Place& place, const CentredBox& box) const {
-  if (!place.is_rigid) return std::nullopt;
-  const NearestSphere sphere = nearest_sphere(*this, place, box.centre);
+std::optional<Interval> Segment::box_bounds(const Domain& domain, const CentredBox& box) const {
+  if (!domain.is_rigid) return std::nullopt;
+  const NearestSphere sphere = nearest_sphere(*this, domain, box.centre);
   const dvec3 v = abs(sphere.offset);
   const double m = glm::length(v), d = m - sphere.radius;
   // The distance is convex and lies above its tangent plane; no sphere of the cone is nearer than it is.

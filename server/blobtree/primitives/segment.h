@@ -41,10 +41,10 @@ struct Segment {
   double least_radius() const;
   double area() const;
   double growth() const;
-  blobtree::Box support(const Affine& place, double range) const;
+  blobtree::Box support(const Affine& to_world, double range) const;
   Operand operand(bool is_rigid) const;
-  void write(const Place& place, Operand operand, Float4* out) const;
-  std::optional<Interval> box_bounds(const Place& place, const CentredBox& box) const;
+  void write(const Domain& domain, Slope slope, Operand operand, Float4* out) const;
+  std::optional<Interval> box_bounds(const Domain& domain, const CentredBox& box) const;
 };
 
 }  // namespace isofield::blobtree::shapes

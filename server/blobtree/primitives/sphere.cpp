@@ -32,24 +32,24 @@ double Sphere::growth() const {
   return 1;
 }
 
-blobtree::Box Sphere::support(const Affine& place, double range) const {
+blobtree::Box Sphere::support(const Affine& to_world, double range) const {
   const double r = radius + range;
-  return ellipsoid_image(place, {r, r, r});
+  return ellipsoid_image(to_world, {r, r, r});
 }
 
 Operand Sphere::operand(bool is_rigid) const {
   return is_rigid ? Operand::kSphere : Operand::kEllipsoid;
 }
 
-void Sphere::write(const Place& place, Operand operand, Float4* out) const {
-  if (operand == Operand::kEllipsoid) return write_rows(place, radius, 0, 0, out);
-  out[0] = {f32(place.anchor.x), f32(place.anchor.y), f32(place.anchor.z), place.slope};
+void Sphere::write(const Domain& domain, Slope slope, Operand operand, Float4* out) const {
+  if (operand == Operand::kEllipsoid) return write_rows(domain, slope, radius, 0, 0, out);
+  out[0] = {f32(domain.anchor.x), f32(domain.anchor.y), f32(domain.anchor.z), slope};
   out[1] = {f32(radius), 0, 0, 0};
 }
 
-std::optional<Interval> Sphere::box_bounds(const Place& place, const CentredBox& box) const {
-  if (!place.is_rigid) return std::nullopt;
-  const dvec3 v = abs(box.centre - place.anchor), n = v - box.half;
+std::optional<Interval> Sphere::box_bounds(const Domain& domain, const CentredBox& box) const {
+  if (!domain.is_rigid) return std::nullopt;
+  const dvec3 v = abs(box.centre - domain.anchor), n = v - box.half;
   const dvec3 nearest{std::max(n.x, 0.0), std::max(n.y, 0.0), std::max(n.z, 0.0)};
   return Interval{length(nearest) - radius, length(v + box.half) - radius};
 }

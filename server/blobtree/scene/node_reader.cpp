@@ -112,9 +112,9 @@ absl::Status read_node(const v1::Node& message, const OperatorTable& custom, Nod
     break;
     ISOFIELD_PRIMITIVES(ISOFIELD_CASE)
 #undef ISOFIELD_CASE
-#define ISOFIELD_CASE(Name, field)                            \
-  case v1::Node::k##Name:                                     \
-    node.kind = NodeKind::kOperator;                          \
+#define ISOFIELD_CASE(Name, field)                             \
+  case v1::Node::k##Name:                                      \
+    node.kind = NodeKind::kOperator;                           \
     node.op = read_kind<operators::Name>(message.field(), in); \
     break;
     ISOFIELD_BLENDS(ISOFIELD_CASE)

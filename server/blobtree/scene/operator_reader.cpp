@@ -35,9 +35,9 @@ absl::StatusOr<std::shared_ptr<const Operator>> read_operator(const v1::Operator
   base::FieldReader in(path);
   std::shared_ptr<const Operator> op;
   switch (message.kind_case()) {
-#define ISOFIELD_CASE(Name, field)                            \
-  case v1::Operator::k##Name:                                 \
-    op = read_kind<operators::Name>(message.field(), in);     \
+#define ISOFIELD_CASE(Name, field)                        \
+  case v1::Operator::k##Name:                             \
+    op = read_kind<operators::Name>(message.field(), in); \
     break;
     ISOFIELD_OPERATORS(ISOFIELD_CASE)
 #undef ISOFIELD_CASE
@@ -52,8 +52,8 @@ absl::StatusOr<std::shared_ptr<const Operator>> read_operator(const v1::Operator
 
 Operator unread_operator(const v1::Operator& message) {
   switch (message.kind_case()) {
-#define ISOFIELD_CASE(Name, field)  \
-  case v1::Operator::k##Name:       \
+#define ISOFIELD_CASE(Name, field) \
+  case v1::Operator::k##Name:      \
     return operators::Name{};
     ISOFIELD_OPERATORS(ISOFIELD_CASE)
 #undef ISOFIELD_CASE

@@ -55,8 +55,9 @@ std::vector<std::string> numeric_fields(const Descriptor& type) {
 absl::Status refuse_field(const ParameterEdit& edit, const FieldDescriptor& kind) {
   const std::vector<std::string> names = numeric_fields(*kind.message_type());
   if (names.empty()) return refuse(edit, absl::StrCat("a node of kind ", kind.name(), " has no numbers"));
-  return refuse(edit, absl::StrCat("a node of kind ", kind.name(), " has no such numeric field",
-                                   base::did_you_mean(edit.field, names), "; expected one of ", absl::StrJoin(names, ", ")));
+  return refuse(edit,
+                absl::StrCat("a node of kind ", kind.name(), " has no such numeric field",
+                             base::did_you_mean(edit.field, names), "; expected one of ", absl::StrJoin(names, ", ")));
 }
 
 // The element that ".1" or ".y" names; -1: none.

@@ -28,9 +28,9 @@ class References {
     const std::string& name = node.name();
     if (name.empty()) return absl::OkStatus();
     if (name[0] == '#' || name.find('.') != std::string::npos || name.size() > kMaxNameCharacters) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          path, ".name = ", base::quoted(name), ": expected a name of at most ", kMaxNameCharacters,
-          " characters that does not start with '#' and holds no '.'"));
+      return absl::InvalidArgumentError(absl::StrCat(path, ".name = ", base::quoted(name),
+                                                     ": expected a name of at most ", kMaxNameCharacters,
+                                                     " characters that does not start with '#' and holds no '.'"));
     }
     const auto [place, added] = names_.emplace(name, index);
     if (!added) {

@@ -74,7 +74,11 @@ void add_codes(Tape& tape, const Operation& o, const Mode& mode) {
   }
   // What remains of a blend with weights beyond its range is one operand over its weight; what remains of a positive
   // field that is made signed, 0.5 less 0.
-  const bool has_weights = o.what && o.what->visit([](const auto& kind) { return requires { kind.weight(0); }; });
+  const bool has_weights = o.what && o.what->visit([](const auto& kind) {
+    return requires {
+      kind.weight(0);
+    };
+  });
   if (has_weights || o.op == Opcode::kLinear) {
     codes.opcodes.add(Opcode::kLinear);
     codes.operands.add(Operand::kZero);

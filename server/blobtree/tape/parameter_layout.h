@@ -1,5 +1,5 @@
-// The buffers that the device reads a tape's parameters from. Each kind of primitive and of operator lays its own records
-// out, and its .glsl reads them.
+// The buffers that the device reads a tape's parameters from. Each kind of primitive and of operator lays its own
+// records out, and its .glsl reads them.
 #pragma once
 
 #include <vector>

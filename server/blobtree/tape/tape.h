@@ -71,7 +71,7 @@ inline Instruction instruction(Operand operand, Opcode op, std::uint32_t leaf = 
 // The parameters of one use of an operator.
 struct Operation {
   Opcode op = Opcode::kSum;
-  operators::Law law = operators::Law::kPositive;  // of the operands
+  operators::Law law = operators::Law::kPositive;   // of the operands
   std::shared_ptr<const operators::Operator> what;  // all but kLinear and kSoften
   // Steered blends: the largest range below; gradients are measured against 1 / length to tell whether they vanish. In
   // the unit of `frame` where there is one, else in the world's.

@@ -2,7 +2,6 @@
 
 #include <cstring>
 
-
 namespace isofield::blobtree {
 
 static_assert(sizeof(Instruction) == sizeof(Float4));

@@ -76,7 +76,9 @@ KernelKind KernelKind::single_leaf(const blobtree::Tape& tape) {
 
 KernelConstants KernelKind::constants() const {
   KernelConstants values{};
-  const auto set = [&](KernelConstant constant, std::uint32_t value) { values[static_cast<std::size_t>(constant)] = value; };
+  const auto set = [&](KernelConstant constant, std::uint32_t value) {
+    values[static_cast<std::size_t>(constant)] = value;
+  };
   set(KernelConstant::kFlags, codes.flags);
   set(KernelConstant::kOnlyOperand, only_operand(codes));
   set(KernelConstant::kOnlyOpcode, only_opcode(codes, stack_depth));

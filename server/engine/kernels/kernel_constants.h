@@ -1,5 +1,5 @@
-// The specialisation constants of kernels that run tapes: their numbers and names, from which shaders/generators/opcodes.cpp
-// writes what the shaders declare.
+// The specialisation constants of kernels that run tapes: their numbers and names, from which
+// shaders/generators/opcodes.cpp writes what the shaders declare.
 #pragma once
 
 #include <array>
@@ -13,18 +13,19 @@ namespace isofield::engine {
 
 // Of the constants before the words of the sets, which follow: first those of operands, then those of opcodes.
 enum class KernelConstant {
-  kFlags,         // blobtree::Codes::Flag
-  kOnlyOperand,   // the one leaf that all instructions have, or kNone where they differ
-  kOnlyOpcode,    // the one opcode of all instructions but the first, which pushes; or kNone where they differ
-  kStackDepth,    // values that wait beside the accumulator, at most
-  kTapeLength,    // instructions of every tape, or 0 where they differ
-  kArity,         // most operands of an operator that takes all of them at once
-  kVolumeSet,     // the slots of volumes that are read, by bits
-  kUniformSet,    // parameters in uniform buffers. 1: leaves, 2: operations, 4: tape; 8, with all: invocations share loads
+  kFlags,        // blobtree::Codes::Flag
+  kOnlyOperand,  // the one leaf that all instructions have, or kNone where they differ
+  kOnlyOpcode,   // the one opcode of all instructions but the first, which pushes; or kNone where they differ
+  kStackDepth,   // values that wait beside the accumulator, at most
+  kTapeLength,   // instructions of every tape, or 0 where they differ
+  kArity,        // most operands of an operator that takes all of them at once
+  kVolumeSet,    // the slots of volumes that are read, by bits
+  kUniformSet,   // parameters in uniform buffers. 1: leaves, 2: operations, 4: tape; 8, with all: invocations share
+                 // loads
   kCount
 };
-inline constexpr std::array kKernelConstantNames{"CODE_FLAGS", "ONLY_OPERAND", "ONLY_OPERATOR", "STACK_DEPTH",
-                                                 "TAPE_LENGTH", "ARITY",       "VOLUME_SET",    "UNIFORM_SET"};
+inline constexpr std::array kKernelConstantNames{"CODE_FLAGS",  "ONLY_OPERAND", "ONLY_OPERATOR", "STACK_DEPTH",
+                                                 "TAPE_LENGTH", "ARITY",        "VOLUME_SET",    "UNIFORM_SET"};
 static_assert(kKernelConstantNames.size() == static_cast<std::size_t>(KernelConstant::kCount));
 inline constexpr std::uint32_t kNone = 0xff;
 

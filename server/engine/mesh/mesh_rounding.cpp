@@ -17,13 +17,16 @@ constexpr double kRoundings = 4;
 constexpr double kValueRounding = 1e-6;
 // The slope of a positive primitive over its range: (1 - R0) |w'(r)| is at most this, at r^2 = 1/5.
 constexpr double kSteepest = 0.94;
-// The shift as a part of a cell. Less would do for most scenes; more makes slivers where a crease passes a lattice point.
+// The shift as a part of a cell. Less would do for most scenes; more makes slivers where a crease passes a lattice
+// point.
 constexpr double kLeastShift = 0.001, kMostShift = 0.1;
 // The point beside a lattice point is further from it than rounding takes either, and its value tells the side.
 constexpr double kShiftPerLength = 4, kShiftPerValue = 10;
 
 // Up to the next of four steps an octave, so that small edits of a scene change nothing.
-double stepped(double x) { return std::exp2(std::ceil(4 * std::log2(x)) / 4); }
+double stepped(double x) {
+  return std::exp2(std::ceil(4 * std::log2(x)) / 4);
+}
 
 double reach_of(const blobtree::Box& box) {
   return std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z), std::abs(box.max.x),
@@ -32,12 +35,12 @@ double reach_of(const blobtree::Box& box) {
 
 // The largest coordinate that the leaf's field is computed from.
 double reach_of(const blobtree::Leaf& leaf) {
-  const blobtree::dvec3& anchor = leaf.place.anchor;
+  const blobtree::dvec3& anchor = leaf.domain.anchor;
   return reach_of(leaf.support.is_bounded() ? leaf.support : blobtree::Box{anchor, anchor});
 }
 
 double slope_of(const blobtree::Leaf& leaf) {
-  return leaf.stretch * (leaf.law == operators::Law::kSigned ? leaf.per_distance : kSteepest / leaf.range);
+  return leaf.domain.stretch * (leaf.law == operators::Law::kSigned ? leaf.per_distance : kSteepest / leaf.range);
 }
 
 // The least slope of a primitive.
@@ -79,8 +82,8 @@ MeshRounding mesh_rounding(const blobtree::Tape& tape, const blobtree::Lattice& 
   rounding.length = std::min(kRoundings * kUnit * stepped(reach), kMostShift * cell / kShiftPerLength);
   rounding.value = kValueRounding * value_of(tape, iso);
   const double for_value = stepped(kShiftPerValue * rounding.value / least_slope_of(tape) + 1e-30);
-  rounding.shift = std::max(kShiftPerLength * rounding.length,
-                            std::clamp(for_value, kLeastShift * cell, kMostShift * cell));
+  rounding.shift =
+      std::max(kShiftPerLength * rounding.length, std::clamp(for_value, kLeastShift * cell, kMostShift * cell));
   rounding.near = rounding.value + stepped(most_slope_of(tape)) * rounding.length;
   return rounding;
 }

@@ -82,7 +82,7 @@ absl::StatusOr<MeshTracker::Update> MeshTracker::update(SceneLease scene, const 
     ISOFIELD_ASSIGN_OR_RETURN(const Lattice old_lattice, mesh_lattice(before->tape(), request_));
     ISOFIELD_ASSIGN_OR_RETURN(const Lattice lattice, mesh_lattice(scene->tape(), request_));
     if (!same_lattice(old_lattice, lattice) || !(mesh_rounding(before->tape(), old_lattice, request_.iso) ==
-                                                  mesh_rounding(scene->tape(), lattice, request_.iso))) {
+                                                 mesh_rounding(scene->tape(), lattice, request_.iso))) {
       bricks_.clear();
       ISOFIELD_ASSIGN_OR_RETURN(Update update, update_whole(*scene, callbacks));
       update.is_whole = true;

@@ -97,8 +97,8 @@ absl::Status OperatorEvaluator::evaluate(const std::shared_ptr<const operators::
     rows = device_rows(arguments, operands, by_angle);
     arguments = rows;
   }
-  return run(device_, kernels_, volumes_, blobtree::operator_tape(steered, op->law(), k), constants,
-             1 + k + is_steered, arguments, results);
+  return run(device_, kernels_, volumes_, blobtree::operator_tape(steered, op->law(), k), constants, 1 + k + is_steered,
+             arguments, results);
 }
 
 absl::Status OperatorEvaluator::evaluate_opening(const operators::Opening& opening, std::span<const float> alphas,

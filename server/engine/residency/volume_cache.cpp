@@ -115,8 +115,7 @@ absl::StatusOr<VolumeLease> VolumeCache::build(const Operator& op) {
                             sampled ? fill_sampled(session, kernels_, *sampled->samples, inputs)
                                     : fill_gradient(session, kernels_, *op.as<operators::Gradient>(), inputs));
   ISOFIELD_RETURN_IF_ERROR(session.run());
-  return VolumeLease(
-      new Volume(std::move(nodes), op.volume_key().size, sampled ? sampled->samples : nullptr));
+  return VolumeLease(new Volume(std::move(nodes), op.volume_key().size, sampled ? sampled->samples : nullptr));
 }
 
 absl::StatusOr<VolumeLease> VolumeCache::get(const Operator& op) {
@@ -125,8 +124,7 @@ absl::StatusOr<VolumeLease> VolumeCache::get(const Operator& op) {
   const std::lock_guard lock(place->building);
   if (VolumeLease volume = place->lease()) {
     const operators::SampledVolume* samples = samples_of(op);
-    const bool is_same =
-        !samples || samples == volume->samples_.get() || samples->values == volume->samples_->values;
+    const bool is_same = !samples || samples == volume->samples_.get() || samples->values == volume->samples_->values;
     // Other samples of the same digest: their volume is not shared.
     return is_same ? absl::StatusOr<VolumeLease>(volume) : build(op);
   }
