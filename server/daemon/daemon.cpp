@@ -36,6 +36,8 @@
 #include "rpc/shared_regions.h"
 #include "rpc/surface_service.h"
 #include "rpc/unreadable_requests.h"
+#include "scenes/resident_scenes.h"
+#include "scenes/scene_editor.h"
 #include "scenes/scene_source.h"
 
 namespace isofield::daemon {
@@ -177,11 +179,12 @@ absl::Status run(const Config& config, const std::string& version) {
   limits.max_mesh_cells = std::min(limits.max_mesh_cells, engine->mesher().max_cells());
   catalog::Catalog catalog(limits.max_scenes);
   catalog::OperatorCatalog operators(limits.max_operators);
-  const rpc::SceneSource scenes(catalog, operators, *engine);
+  scenes::ResidentScenes residents(*engine);
+  const scenes::SceneSource scenes(catalog, operators, residents, *engine);
   std::optional<engine::CompileAhead> ahead;
   if (config.compile_ahead) ahead.emplace(gpu::DeviceOptions{.name = config.device}, config.limits.scene, specialised);
-  rpc::SceneEditor editor(catalog, *engine, ahead ? &*ahead : nullptr);
-  rpc::SceneService scene_service(catalog, operators, *engine, editor);
+  scenes::SceneEditor editor(catalog, residents, *engine, ahead ? &*ahead : nullptr);
+  rpc::SceneService scene_service(catalog, operators, residents, editor, *engine);
   rpc::OperatorService operator_service(operators, scenes, *engine, limits);
   rpc::SharedRegions shared_regions(limits.shared);
   rpc::CallLog::Sink log_line;
@@ -192,7 +195,7 @@ absl::Status run(const Config& config, const std::string& version) {
   rpc::MeshService mesh_service(scenes, editor, *engine, limits);
   rpc::SurfaceService surface_service(scenes, *engine, limits);
   rpc::ReflectionService reflection_service(service_names());
-  rpc::InfoService info_service(operators, *engine, limits, version, region_socket_path(config));
+  rpc::InfoService info_service(operators, residents, *engine, limits, version, region_socket_path(config));
   ISOFIELD_ASSIGN_OR_RETURN(const Running running, start_server(config,
                                                                 {&scene_service, &operator_service, &field_service,
                                                                  &mesh_service, &surface_service, &info_service,

@@ -53,30 +53,6 @@ absl::StatusOr<SceneLease> Engine::edit(const ResidentScene& before, const v1::S
   return make_resident(edited, operators);
 }
 
-absl::StatusOr<SceneLease> Engine::acquire(std::uint64_t version, const v1::Scene& scene,
-                                           const blobtree::OperatorTable& operators) {
-  {
-    const std::lock_guard lock(mutex_);
-    const auto it = resident_.find(version);
-    if (it != resident_.end()) return it->second;
-  }
-  return make_resident(scene, operators);
-}
-
-void Engine::keep(std::uint64_t version, SceneLease scene) {
-  const std::lock_guard lock(mutex_);
-  resident_[version] = std::move(scene);
-}
-
-void Engine::drop(std::uint64_t version) {
-  SceneLease last;  // declared before the lock: released after it
-  const std::lock_guard lock(mutex_);
-  const auto it = resident_.find(version);
-  if (it == resident_.end()) return;
-  last = std::move(it->second);
-  resident_.erase(it);
-}
-
 // Compiles the kernels of a batch before it joins the queue, so that batches that do not need them do not wait.
 absl::Status Engine::prepare(const PointBatch& batch) {
   RequestTimes unasked;
@@ -92,13 +68,6 @@ absl::Status Engine::evaluate(const PointBatch& batch) {
 void Engine::submit(PointBatch batch, EvaluationQueue::Done done) {
   if (const absl::Status s = prepare(batch); !s.ok()) return done(s);
   queue_.submit(std::move(batch), std::move(done));
-}
-
-Engine::Residency Engine::residency() const {
-  const std::lock_guard lock(mutex_);
-  Residency r{resident_.size(), volumes_.usage().bytes};
-  for (const auto& [version, scene] : resident_) r.bytes += scene->own_bytes();
-  return r;
 }
 
 }  // namespace isofield::engine

@@ -1,12 +1,11 @@
 // The device with all that runs on it: what rpc/ calls down to.
 #pragma once
 
-#include <absl/container/flat_hash_map.h>
 #include <absl/status/statusor.h>
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
+#include <vector>
 
 #include "base/workers.h"
 #include "blobtree/scene/operator_table.h"
@@ -43,17 +42,6 @@ class Engine {
   absl::StatusOr<SceneLease> edit(const ResidentScene& before, const v1::Scene& edited,
                                   const std::vector<std::uint32_t>& nodes, const blobtree::OperatorTable& operators);
 
-  // The resident form of a version of the catalog, made now if it is not there.
-  absl::StatusOr<SceneLease> acquire(std::uint64_t version, const v1::Scene& scene,
-                                     const blobtree::OperatorTable& operators = {});
-  // Keeps a scene for acquire(); drops it again. Leases out live on.
-  void keep(std::uint64_t version, SceneLease scene);
-  void drop(std::uint64_t version);
-
-  struct Residency {
-    std::uint64_t scenes = 0, bytes = 0;
-  };
-  Residency residency() const;
   VolumeCache& volumes() { return volumes_; }
 
   // Beside others' requests; errors as of EvaluationQueue.
@@ -85,8 +73,6 @@ class Engine {
   RayCaster rays_;
   SurfaceProjector projector_;
   OperatorEvaluator operators_;
-  mutable std::mutex mutex_;
-  absl::flat_hash_map<std::uint64_t, SceneLease> resident_;
 };
 
 }  // namespace isofield::engine

@@ -58,12 +58,12 @@ absl::StatusOr<engine::Quantity> read_quantity(v1::Quantity quantity) {
   }
 }
 
-absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context, const SceneSource& scenes,
+absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context, const scenes::SceneSource& scenes,
                                               const v1::SceneRef& scene, v1::Quantity quantity, v1::Priority priority) {
   engine::PointBatch batch;
   ISOFIELD_ASSIGN_OR_RETURN(batch.quantity, read_quantity(quantity));
   ISOFIELD_ASSIGN_OR_RETURN(batch.priority, read_priority(priority));
-  ISOFIELD_ASSIGN_OR_RETURN(LeasedScene leased, scenes.lease(scene));
+  ISOFIELD_ASSIGN_OR_RETURN(scenes::LeasedScene leased, scenes.lease(scene));
   batch.scene = std::move(leased.scene);
   batch.deadline = context.deadline();
   batch.cancelled = [&context] { return context.IsCancelled(); };

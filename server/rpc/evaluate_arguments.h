@@ -18,7 +18,7 @@ namespace isofield::rpc {
 absl::StatusOr<engine::Quantity> read_quantity(v1::Quantity quantity);
 
 // All but the points of a call, or of a stream of them. `context` must outlive the batch.
-absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context, const SceneSource& scenes,
+absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context, const scenes::SceneSource& scenes,
                                               const v1::SceneRef& scene, v1::Quantity quantity, v1::Priority priority);
 
 // The fields of a message that say where points are and results go; null: absent.

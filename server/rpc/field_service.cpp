@@ -135,7 +135,7 @@ grpc::Status FieldService::EvaluateGrid(grpc::ServerContext* context, const v1::
   if (!quantity.ok()) return to_grpc(quantity.status());
   const absl::StatusOr<blobtree::Lattice> lattice = read_lattice(*request, limits_);
   if (!lattice.ok()) return to_grpc(lattice.status());
-  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
+  const absl::StatusOr<scenes::LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
 
   const absl::StatusOr<AnswerLimit> limit = AnswerLimit::of_stream(request->max_answer_bytes());

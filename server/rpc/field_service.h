@@ -19,8 +19,8 @@ class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
                                v1::FieldService::WithRawMethod_EvaluateStream<v1::FieldService::Service>> {
  public:
   // `regions`: null where no memory is shared.
-  FieldService(const SceneSource& scenes, engine::Engine& engine, const Limits& limits, const SharedRegions* regions,
-               const CallLog& log)
+  FieldService(const scenes::SceneSource& scenes, engine::Engine& engine, const Limits& limits,
+               const SharedRegions* regions, const CallLog& log)
       : scenes_(scenes), engine_(engine), limits_(limits), regions_(regions), log_(log) {}
 
   // Takes the status and, if it is OK, the bytes of an EvaluateResponse.
@@ -46,7 +46,7 @@ class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
   template <class Request>
   absl::StatusOr<engine::PointBatch> batch_of(const grpc::ServerContext& context, const Request& request) const;
 
-  const SceneSource& scenes_;
+  const scenes::SceneSource& scenes_;
   engine::Engine& engine_;
   const Limits& limits_;
   const SharedRegions* const regions_;

@@ -31,9 +31,9 @@ grpc::Status InfoService::GetInfo(grpc::ServerContext*, const v1::GetInfoRequest
     limits.set_max_shared_bytes(limits_.shared.max_bytes);
   }
   response->set_shared_memory_socket(region_socket_);
-  const engine::Engine::Residency residency = engine_.residency();
-  response->set_resident_scenes(residency.scenes);
-  response->set_scene_bytes(residency.bytes);
+  const scenes::ResidentScenes::Usage residents = residents_.usage();
+  response->set_resident_scenes(residents.scenes);
+  response->set_scene_bytes(residents.bytes);
   response->set_device_bytes(engine_.device().allocated_bytes());
   response->set_operators(operators_.size());
   response->set_uptime_seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());

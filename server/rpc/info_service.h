@@ -8,15 +8,17 @@
 #include "engine/engine.h"
 #include "isofield/v1/info_service.grpc.pb.h"
 #include "rpc/limits.h"
+#include "scenes/resident_scenes.h"
 
 namespace isofield::rpc {
 
 class InfoService final : public v1::InfoService::Service {
  public:
   // `region_socket`: where memory is shared; empty: nowhere.
-  InfoService(const catalog::OperatorCatalog& operators, engine::Engine& engine, const Limits& limits,
-              std::string version, std::string region_socket)
+  InfoService(const catalog::OperatorCatalog& operators, const scenes::ResidentScenes& residents,
+              engine::Engine& engine, const Limits& limits, std::string version, std::string region_socket)
       : operators_(operators),
+        residents_(residents),
         engine_(engine),
         limits_(limits),
         version_(std::move(version)),
@@ -26,6 +28,7 @@ class InfoService final : public v1::InfoService::Service {
 
  private:
   const catalog::OperatorCatalog& operators_;
+  const scenes::ResidentScenes& residents_;
   engine::Engine& engine_;
   const Limits& limits_;
   const std::string version_, region_socket_;

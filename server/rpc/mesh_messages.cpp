@@ -57,7 +57,7 @@ absl::StatusOr<double> read_tolerance(const v1::MeshRequest& request, double oth
   return request.tolerance();
 }
 
-void fill_slivers(const engine::ShellCounts& shells, const LeasedScene& leased, v1::MeshSummary& summary) {
+void fill_slivers(const engine::ShellCounts& shells, const scenes::LeasedScene& leased, v1::MeshSummary& summary) {
   if (shells.sliver_bodies + shells.sliver_voids == 0) return;
   v1::Slivers& slivers = *summary.mutable_slivers();
   slivers.set_bodies(shells.sliver_bodies);
@@ -65,7 +65,7 @@ void fill_slivers(const engine::ShellCounts& shells, const LeasedScene& leased, 
   set_vector({shells.sliver[0], shells.sliver[1], shells.sliver[2]}, *slivers.mutable_position());
   const blobtree::Tape& tape = leased.scene->tape();
   const std::uint32_t leaf = blobtree::nearest_leaves(tape, shells.sliver).front();
-  if (leaf != blobtree::kNoLeaf) slivers.set_node(node_name(*leased.message, tape.leaves[leaf].node));
+  if (leaf != blobtree::kNoLeaf) slivers.set_node(scenes::node_name(*leased.message, tape.leaves[leaf].node));
 }
 
 }  // namespace
@@ -142,7 +142,7 @@ void MeshTotals::add(const engine::Mesh& whole) {
   cells += whole.cells;
 }
 
-void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const LeasedScene& leased,
+void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const scenes::LeasedScene& leased,
                   v1::MeshSummary& summary) {
   const blobtree::Tape& tape = leased.scene->tape();
   summary.set_vertices(totals.vertices);
@@ -159,7 +159,7 @@ void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, 
   summary.set_dropped_bodies(totals.dropped.bodies);
   summary.set_dropped_voids(totals.dropped.voids);
   if (const auto thin = engine::too_thin(tape, request)) {
-    summary.mutable_too_thin()->set_node(node_name(*leased.message, thin->node));
+    summary.mutable_too_thin()->set_node(scenes::node_name(*leased.message, thin->node));
     summary.mutable_too_thin()->set_thickness(thin->thickness);
     summary.mutable_too_thin()->set_cell_size(thin->cell_size);
     summary.mutable_too_thin()->set_primitives(thin->primitives);

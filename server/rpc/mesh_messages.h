@@ -56,7 +56,7 @@ struct MeshTotals {
   void add(const engine::MeshCells& part);
   void add(const engine::Mesh& whole);
 };
-void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const LeasedScene& leased,
+void fill_summary(const MeshTotals& totals, const engine::MeshRequest& request, const scenes::LeasedScene& leased,
                   v1::MeshSummary& summary);
 
 }  // namespace isofield::rpc

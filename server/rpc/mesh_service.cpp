@@ -95,7 +95,7 @@ absl::StatusOr<std::optional<blobtree::BrickBox>> read_part(const v1::MeshBricks
 grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshRequest* request,
                                grpc::ServerWriter<v1::MeshResponse>* writer) {
   MeshTotals totals;
-  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
+  const absl::StatusOr<scenes::LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
   const absl::StatusOr<Refinement> refinement = Refinement::read(*request);
   if (!refinement.ok()) return to_grpc(refinement.status());
@@ -130,7 +130,7 @@ grpc::Status MeshService::Mesh(grpc::ServerContext* context, const v1::MeshReque
 grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::MeshBricksRequest* request,
                                         grpc::ServerWriter<v1::MeshBricksResponse>* writer) {
   MeshTotals totals;
-  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->mesh().scene());
+  const absl::StatusOr<scenes::LeasedScene> leased = scenes_.lease(request->mesh().scene());
   if (!leased.ok()) return to_grpc(leased.status());
   if (const absl::Status status = check_as_made(request->mesh()); !status.ok()) return to_grpc(status);
   const engine::MeshCallbacks callbacks = mesh_callbacks(*context, *writer);
@@ -156,7 +156,8 @@ grpc::Status MeshService::GetMeshBricks(grpc::ServerContext* context, const v1::
   return writer->Write(response) ? grpc::Status::OK : to_grpc(client_gone());
 }
 
-MeshService::MeshService(const SceneSource& scenes, SceneEditor& editor, engine::Engine& engine, const Limits& limits)
+MeshService::MeshService(const scenes::SceneSource& scenes, scenes::SceneEditor& editor, engine::Engine& engine,
+                         const Limits& limits)
     : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits) {
   const auto* service = v1::TrackMeshRequest::descriptor()->file()->FindServiceByName("MeshService");
   const int method = service->FindMethodByName("TrackMesh")->index();
@@ -181,7 +182,7 @@ grpc::Status MeshService::track_mesh(grpc::ServerContext& context, TrackMeshStre
 grpc::Status MeshService::Measure(grpc::ServerContext* context, const v1::MeshRequest* request,
                                   v1::MeasureResponse* response) {
   MeshTotals totals;
-  const absl::StatusOr<LeasedScene> leased = scenes_.lease(request->scene());
+  const absl::StatusOr<scenes::LeasedScene> leased = scenes_.lease(request->scene());
   if (!leased.ok()) return to_grpc(leased.status());
   const absl::StatusOr<Refinement> refinement = Refinement::read(*request);
   if (!refinement.ok()) return to_grpc(refinement.status());

@@ -14,7 +14,8 @@ namespace isofield::rpc {
 
 class MeshService final : public v1::MeshService::Service {
  public:
-  MeshService(const SceneSource& scenes, SceneEditor& editor, engine::Engine& engine, const Limits& limits);
+  MeshService(const scenes::SceneSource& scenes, scenes::SceneEditor& editor, engine::Engine& engine,
+              const Limits& limits);
 
   grpc::Status Mesh(grpc::ServerContext*, const v1::MeshRequest*, grpc::ServerWriter<v1::MeshResponse>*) override;
   grpc::Status GetMeshBricks(grpc::ServerContext*, const v1::MeshBricksRequest*,
@@ -25,8 +26,8 @@ class MeshService final : public v1::MeshService::Service {
   // Serves TrackMesh. Its requests are read as bytes, since gRPC would take an unreadable message for the stream's end.
   grpc::Status track_mesh(grpc::ServerContext& context, TrackMeshStream& stream);
 
-  const SceneSource& scenes_;
-  SceneEditor& editor_;
+  const scenes::SceneSource& scenes_;
+  scenes::SceneEditor& editor_;
   engine::Engine& engine_;
   const Limits& limits_;
   std::atomic<int> tracked_ = 0;

@@ -5,6 +5,7 @@
 #include "base/quoted.h"
 #include "base/status_macros.h"
 #include "rpc/answer_limit.h"
+#include "rpc/parameter_edits.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"
 #include "rpc/unreadable_requests.h"
@@ -33,7 +34,7 @@ absl::Status MeshTracking::begin(const v1::MeshRequest& request) {
   }
   ISOFIELD_RETURN_IF_ERROR(check_as_made(request));
   scene_ = request.scene();
-  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(scene_));
+  ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(scene_));
   ISOFIELD_ASSIGN_OR_RETURN(request_, read_mesh_request(request, *leased.scene, engine_.mesher(), limits_,
                                                         [&] { return context_.IsCancelled(); }));
   tracker_.emplace(engine_.mesher(), request_);
@@ -49,12 +50,12 @@ absl::Status MeshTracking::follow(const v1::TrackMeshRequest& request) {
                                                        ": expected none, or the name ", base::quoted(scene_.name()),
                                                        " of the scene that this stream follows"));
       }
-      ISOFIELD_ASSIGN_OR_RETURN(const StoredScene stored,
+      ISOFIELD_ASSIGN_OR_RETURN(const scenes::StoredScene stored,
                                 editor_.edit(scene_.name(), read_edits(edit.edits()), edit.expected_version()));
       return answer({stored.lease, stored.entry.version, stored.entry.scene});
     }
     case v1::TrackMeshRequest::kRefresh: {
-      ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(scene_));
+      ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(scene_));
       return answer(leased);
     }
     default:
@@ -62,7 +63,7 @@ absl::Status MeshTracking::follow(const v1::TrackMeshRequest& request) {
   }
 }
 
-absl::Status MeshTracking::answer(const LeasedScene& leased) {
+absl::Status MeshTracking::answer(const scenes::LeasedScene& leased) {
   MeshTotals totals;
   ISOFIELD_ASSIGN_OR_RETURN(const engine::MeshTracker::Update update,
                             tracker_->update(leased.scene, {.cancelled = [&] { return context_.IsCancelled(); }}));

@@ -24,8 +24,8 @@ using TrackMeshStream = grpc::ServerReaderWriter<v1::TrackMeshResponse, grpc::By
 
 class MeshTracking {
  public:
-  MeshTracking(const SceneSource& scenes, SceneEditor& editor, engine::Engine& engine, const Limits& limits,
-               grpc::ServerContext& context, TrackMeshStream& stream)
+  MeshTracking(const scenes::SceneSource& scenes, scenes::SceneEditor& editor, engine::Engine& engine,
+               const Limits& limits, grpc::ServerContext& context, TrackMeshStream& stream)
       : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits), context_(context), stream_(stream) {}
 
   // Answers requests until the client ends the stream.
@@ -34,11 +34,11 @@ class MeshTracking {
  private:
   absl::Status begin(const v1::MeshRequest& request);
   absl::Status follow(const v1::TrackMeshRequest& request);
-  absl::Status answer(const LeasedScene& leased);
+  absl::Status answer(const scenes::LeasedScene& leased);
   absl::Status write(v1::MeshUpdate update);
 
-  const SceneSource& scenes_;
-  SceneEditor& editor_;
+  const scenes::SceneSource& scenes_;
+  scenes::SceneEditor& editor_;
   engine::Engine& engine_;
   const Limits& limits_;
   grpc::ServerContext& context_;

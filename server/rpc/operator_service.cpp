@@ -7,6 +7,7 @@
 #include "blobtree/scene/operator_reader.h"
 #include "catalog/built_in_operators.h"
 #include "rpc/answer_limit.h"
+#include "rpc/geometry_arguments.h"
 #include "rpc/operator_arguments.h"
 #include "rpc/status.h"
 #include "rpc/tensor.h"
@@ -156,11 +157,21 @@ grpc::Status OperatorService::EvaluateOperator(grpc::ServerContext*, const v1::E
   return to_grpc(AnswerLimit(request->max_answer_bytes()).admit(response->ByteSizeLong(), kFewerRows));
 }
 
+absl::Status OperatorService::pick(const v1::PickOpeningRequest& request, v1::PickOpeningResponse& response) {
+  ISOFIELD_ASSIGN_OR_RETURN(const scenes::FoundScene found, scenes_.find(request.scene()));
+  ISOFIELD_ASSIGN_OR_RETURN(const blobtree::dvec3 point, read_vector("point", request.point()));
+  ISOFIELD_ASSIGN_OR_RETURN(const scenes::OpeningPick pick,
+                            scenes::pick_opening(found, request.node(), point, engine_));
+  response.set_theta(pick.theta);
+  response.set_alpha(pick.alpha);
+  response.set_f1(pick.f1);
+  response.set_f2(pick.f2);
+  return absl::OkStatus();
+}
+
 grpc::Status OperatorService::PickOpening(grpc::ServerContext*, const v1::PickOpeningRequest* request,
                                           v1::PickOpeningResponse* response) {
-  const absl::StatusOr<FoundScene> found = scenes_.find(request->scene());
-  if (!found.ok()) return to_grpc(found.status());
-  return to_grpc(pick_opening(*found, *request, engine_, *response));
+  return to_grpc(pick(*request, *response));
 }
 
 }  // namespace isofield::rpc

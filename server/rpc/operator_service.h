@@ -11,7 +11,7 @@ namespace isofield::rpc {
 
 class OperatorService final : public v1::OperatorService::Service {
  public:
-  OperatorService(catalog::OperatorCatalog& operators, const SceneSource& scenes, engine::Engine& engine,
+  OperatorService(catalog::OperatorCatalog& operators, const scenes::SceneSource& scenes, engine::Engine& engine,
                   const Limits& limits)
       : operators_(operators), scenes_(scenes), engine_(engine), limits_(limits) {}
 
@@ -26,12 +26,13 @@ class OperatorService final : public v1::OperatorService::Service {
   grpc::Status PickOpening(grpc::ServerContext*, const v1::PickOpeningRequest*, v1::PickOpeningResponse*) override;
 
  private:
+  absl::Status pick(const v1::PickOpeningRequest& request, v1::PickOpeningResponse& response);
   absl::Status put(const v1::PutOperatorRequest& request, v1::PutOperatorResponse& response);
   absl::Status evaluate(const v1::EvaluateOperatorRequest& request, v1::EvaluateOperatorResponse& response);
   absl::Status evaluate_opening(const v1::EvaluateOperatorRequest& request, v1::EvaluateOperatorResponse& response);
 
   catalog::OperatorCatalog& operators_;
-  const SceneSource& scenes_;
+  const scenes::SceneSource& scenes_;
   engine::Engine& engine_;
   const Limits& limits_;
 };

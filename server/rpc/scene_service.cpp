@@ -2,6 +2,7 @@
 
 #include "base/status_macros.h"
 #include "rpc/answer_limit.h"
+#include "rpc/parameter_edits.h"
 #include "rpc/status.h"
 
 namespace isofield::rpc {
@@ -22,8 +23,7 @@ void fill_summary(const catalog::Entry& entry, const engine::ResidentScene& scen
 }  // namespace
 
 absl::Status SceneService::summarise(const catalog::Entry& entry, v1::SceneSummary& summary) {
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease lease,
-                            engine_.acquire(entry.version, *entry.scene, *entry.operators));
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease lease, residents_.acquire(entry));
   fill_summary(entry, *lease, summary);
   return absl::OkStatus();
 }
@@ -37,7 +37,7 @@ grpc::Status SceneService::PutScene(grpc::ServerContext*, const v1::PutSceneRequ
   if (!operators.ok()) return to_grpc(operators.status());
   const absl::StatusOr<engine::SceneLease> lease = engine_.make_resident(request->scene(), **operators);
   if (!lease.ok()) return to_grpc(lease.status());
-  const absl::StatusOr<StoredScene> stored =
+  const absl::StatusOr<scenes::StoredScene> stored =
       editor_.put(request->name(), request->scene(), *lease, *std::move(operators), condition);
   if (!stored.ok()) return to_grpc(stored.status());
   fill_summary(stored->entry, *stored->lease, *response->mutable_summary());
@@ -95,7 +95,7 @@ grpc::Status SceneService::DeleteScene(grpc::ServerContext*, const v1::DeleteSce
 
 grpc::Status SceneService::EditParameters(grpc::ServerContext*, const v1::EditParametersRequest* request,
                                           v1::EditParametersResponse* response) {
-  const absl::StatusOr<StoredScene> stored =
+  const absl::StatusOr<scenes::StoredScene> stored =
       editor_.edit(request->name(), read_edits(request->edits()), request->expected_version());
   if (!stored.ok()) return to_grpc(stored.status());
   fill_summary(stored->entry, *stored->lease, *response->mutable_summary());

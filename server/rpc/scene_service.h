@@ -5,15 +5,16 @@
 #include "catalog/operator_catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
+#include "scenes/resident_scenes.h"
 #include "scenes/scene_editor.h"
 
 namespace isofield::rpc {
 
 class SceneService final : public v1::SceneService::Service {
  public:
-  SceneService(catalog::Catalog& catalog, catalog::OperatorCatalog& operators, engine::Engine& engine,
-               SceneEditor& editor)
-      : catalog_(catalog), operators_(operators), engine_(engine), editor_(editor) {}
+  SceneService(const catalog::Catalog& catalog, const catalog::OperatorCatalog& operators,
+               const scenes::ResidentScenes& residents, scenes::SceneEditor& editor, engine::Engine& engine)
+      : catalog_(catalog), operators_(operators), residents_(residents), editor_(editor), engine_(engine) {}
 
   grpc::Status PutScene(grpc::ServerContext*, const v1::PutSceneRequest*, v1::PutSceneResponse*) override;
   grpc::Status GetScene(grpc::ServerContext*, const v1::GetSceneRequest*, v1::GetSceneResponse*) override;
@@ -27,10 +28,11 @@ class SceneService final : public v1::SceneService::Service {
  private:
   absl::Status summarise(const catalog::Entry& entry, v1::SceneSummary& summary);
 
-  catalog::Catalog& catalog_;
-  catalog::OperatorCatalog& operators_;
+  const catalog::Catalog& catalog_;
+  const catalog::OperatorCatalog& operators_;
+  const scenes::ResidentScenes& residents_;
+  scenes::SceneEditor& editor_;
   engine::Engine& engine_;
-  SceneEditor& editor_;
 };
 
 }  // namespace isofield::rpc

@@ -83,7 +83,7 @@ void set_names(const v1::Scene& scene, std::vector<std::uint32_t>& nodes, v1::Ca
   std::sort(hit.begin(), hit.end());
   hit.erase(std::unique(hit.begin(), hit.end()), hit.end());
   if (!hit.empty() && hit.back() == engine::RayHits::kNoNode) hit.pop_back();
-  for (const std::uint32_t node : hit) response.add_names(node_name(scene, node));
+  for (const std::uint32_t node : hit) response.add_names(scenes::node_name(scene, node));
   for (std::uint32_t& node : nodes) {
     if (node == engine::RayHits::kNoNode) continue;
     node = static_cast<std::uint32_t>(std::lower_bound(hit.begin(), hit.end(), node) - hit.begin());
@@ -108,7 +108,7 @@ absl::Status check_levels(const v1::SliceRequest& request) {
 
 absl::Status SurfaceService::cast(const grpc::ServerContext& context, const v1::CastRaysRequest& request,
                                   v1::CastRaysResponse& response) {
-  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
+  ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   const std::uint64_t most = limits_.max_points_per_message;
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray origins,
                             PointArray::read(request.origins(), most, {"origins", "rays", "send them in parts"}));
@@ -143,7 +143,7 @@ absl::Status SurfaceService::cast(const grpc::ServerContext& context, const v1::
 
 absl::Status SurfaceService::project(const grpc::ServerContext& context, const v1::ProjectPointsRequest& request,
                                      v1::ProjectPointsResponse& response) {
-  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
+  ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray points,
                             PointArray::read(request.points(), limits_.max_points_per_message, kPoints));
   const blobtree::Tape& tape = leased.scene->tape();
@@ -172,7 +172,7 @@ absl::Status SurfaceService::project(const grpc::ServerContext& context, const v
 
 absl::Status SurfaceService::contains(const grpc::ServerContext& context, const v1::ContainsRequest& request,
                                       v1::ContainsResponse& response) {
-  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
+  ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray points,
                             PointArray::read(request.points(), limits_.max_points_per_message, kPoints));
   ISOFIELD_RETURN_IF_ERROR(check_batch(request, points.size(), 1));
@@ -189,7 +189,7 @@ absl::Status SurfaceService::contains(const grpc::ServerContext& context, const 
 
 absl::Status SurfaceService::slice(const grpc::ServerContext& context, const v1::SliceRequest& request,
                                    v1::SliceResponse& response) {
-  ISOFIELD_ASSIGN_OR_RETURN(const LeasedScene leased, scenes_.lease(request.scene()));
+  ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::Plane plane,
                             read_plane(request, leased.scene->tape(), limits_.max_points_per_message));
   ISOFIELD_RETURN_IF_ERROR(check_levels(request));

@@ -10,7 +10,7 @@ namespace isofield::rpc {
 
 class SurfaceService final : public v1::SurfaceService::Service {
  public:
-  SurfaceService(const SceneSource& scenes, engine::Engine& engine, const Limits& limits)
+  SurfaceService(const scenes::SceneSource& scenes, engine::Engine& engine, const Limits& limits)
       : scenes_(scenes), engine_(engine), limits_(limits) {}
 
   grpc::Status CastRays(grpc::ServerContext*, const v1::CastRaysRequest*, v1::CastRaysResponse*) override;
@@ -25,7 +25,7 @@ class SurfaceService final : public v1::SurfaceService::Service {
   absl::Status contains(const grpc::ServerContext&, const v1::ContainsRequest&, v1::ContainsResponse&);
   absl::Status slice(const grpc::ServerContext&, const v1::SliceRequest&, v1::SliceResponse&);
 
-  const SceneSource& scenes_;
+  const scenes::SceneSource& scenes_;
   engine::Engine& engine_;
   const Limits& limits_;
 };

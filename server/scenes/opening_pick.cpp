@@ -15,7 +15,7 @@
 #include "base/status_macros.h"
 #include "blobtree/scene/node_reader.h"
 
-namespace isofield::rpc {
+namespace isofield::scenes {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
@@ -35,20 +35,23 @@ std::optional<int> find_node(const v1::Scene& scene, const std::string& referenc
 }
 
 struct Sample {
+  operators::Law law = operators::Law::kPositive;
   double f = 0;
   std::array<double, 3> gradient{};
   operators::Law law = operators::Law::kPositive;
 };
 
 // A node's field at a point of its own frame.
-absl::StatusOr<Sample> sample(const FoundScene& found, const std::string& node, std::span<const float> point,
+absl::StatusOr<Sample> sample(const FoundScene& found, const std::string& node, const blobtree::dvec3& point,
                               engine::Engine& engine) {
   v1::Scene rooted = *found.scene;
   rooted.set_root(node);
   ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease scene, engine.make_resident(rooted, *found.operators));
+  const std::array<float, 3> xyz{static_cast<float>(point.x), static_cast<float>(point.y),
+                                 static_cast<float>(point.z)};
   std::array<float, 4> out{};
-  ISOFIELD_RETURN_IF_ERROR(engine.fields().evaluate(*scene, point, engine::Quantity::kValueAndGradient, out));
-  return Sample{out[0], {out[1], out[2], out[3]}, scene->tape().law};
+  ISOFIELD_RETURN_IF_ERROR(engine.fields().evaluate(*scene, xyz, engine::Quantity::kValueAndGradient, out));
+  return Sample{scene->tape().law, out[0], {out[1], out[2], out[3]}};
 }
 
 // Radians; 0 where one of them vanishes.
@@ -59,22 +62,10 @@ double angle_between(const std::array<double, 3>& a, const std::array<double, 3>
 
 }  // namespace
 
-absl::Status pick_opening(const FoundScene& found, const v1::PickOpeningRequest& request, engine::Engine& engine,
-                          v1::PickOpeningResponse& response) {
-  if (request.point_size() != 3) {
-    return absl::InvalidArgumentError(absl::StrCat("point holds ", request.point_size(), " numbers: expected 3"));
-  }
-  std::array<float, 3> point{};
-  for (int i = 0; i < 3; ++i) {
-    if (!(std::abs(request.point(i)) <= base::kMaxCoordinate)) {
-      return absl::InvalidArgumentError(absl::StrCat("point[", i, "] = ", request.point(i),
-                                                     ": expected a finite number of magnitude at most ",
-                                                     base::kMaxCoordinate));
-    }
-    point[i] = static_cast<float>(request.point(i));
-  }
-  const std::string name = base::quoted(request.node());
-  const std::optional<int> index = find_node(*found.scene, request.node());
+absl::StatusOr<OpeningPick> pick_opening(const FoundScene& found, const std::string& node,
+                                         const blobtree::dvec3& point, engine::Engine& engine) {
+  const std::string name = base::quoted(node);
+  const std::optional<int> index = find_node(*found.scene, node);
   if (!index) {
     return absl::InvalidArgumentError(absl::StrCat(
         "node = ", name, " is no node: expected a node's name, or #0 to #", found.scene->nodes_size() - 1));
@@ -86,22 +77,20 @@ absl::Status pick_opening(const FoundScene& found, const v1::PickOpeningRequest&
   }
   ISOFIELD_ASSIGN_OR_RETURN(const Sample first, sample(found, *children[0], point, engine));
   ISOFIELD_ASSIGN_OR_RETURN(const Sample second, sample(found, *children[1], point, engine));
-  // An operator takes children of one law.
-  if (first.law == operators::Law::kSigned) {
+  // An operator of two children has the law of its children, or the scene would have been refused above.
+  if (first.law != operators::Law::kPositive) {
     return absl::InvalidArgumentError(
         absl::StrCat("node = ", name, " joins signed fields: expected a positive operator of 2 children"));
   }
   if (!(first.f > 0)) {
-    return absl::InvalidArgumentError(absl::StrCat("point = (", request.point(0), ", ", request.point(1), ", ",
-                                                   request.point(2),
+    return absl::InvalidArgumentError(absl::StrCat("point = (", point.x, ", ", point.y, ", ", point.z,
                                                    "): the first child's field is 0 there; expected "
                                                    "a point of its surface"));
   }
-  response.set_theta(std::min(std::atan2(second.f, first.f) * kDegrees, 45.0));
-  response.set_alpha(angle_between(first.gradient, second.gradient) * kDegrees);
-  response.set_f1(first.f);
-  response.set_f2(second.f);
-  return absl::OkStatus();
+  return OpeningPick{.theta = std::min(std::atan2(second.f, first.f) * kDegrees, 45.0),
+                     .alpha = angle_between(first.gradient, second.gradient) * kDegrees,
+                     .f1 = first.f,
+                     .f2 = second.f};
 }
 
-}  // namespace isofield::rpc
+}  // namespace isofield::scenes

@@ -3,14 +3,24 @@
 
 #include <absl/status/statusor.h>
 
+#include <string>
+
+#include "blobtree/geometry/vec3.h"
 #include "engine/engine.h"
-#include "isofield/v1/operator_service.pb.h"
 #include "scenes/scene_source.h"
 
-namespace isofield::rpc {
+namespace isofield::scenes {
 
-// INVALID_ARGUMENT: the point, the node, or a first field that is 0 at the point.
-absl::Status pick_opening(const FoundScene& found, const v1::PickOpeningRequest& request, engine::Engine& engine,
-                          v1::PickOpeningResponse& response);
+struct OpeningPick {
+  double theta = 0;  // degrees; at which the operator's surface passes through the point, at most 45
+  double alpha = 0;  // degrees; between the gradients of the two children
+  double f1 = 0, f2 = 0;  // the fields of the children
+};
 
-}  // namespace isofield::rpc
+// Picks a point, of coordinates of magnitude at most kMaxCoordinate, at a node that is a name or "#place". It evaluates
+// the fields of the node's children there, each in its own frame.
+// INVALID_ARGUMENT: the node is no positive operator of two children, or the first field is 0 at the point.
+absl::StatusOr<OpeningPick> pick_opening(const FoundScene& found, const std::string& node,
+                                         const blobtree::dvec3& point, engine::Engine& engine);
+
+}  // namespace isofield::scenes

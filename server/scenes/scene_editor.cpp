@@ -2,7 +2,7 @@
 
 #include "base/status_macros.h"
 
-namespace isofield::rpc {
+namespace isofield::scenes {
 
 absl::StatusOr<StoredScene> SceneEditor::put(const std::string& name, v1::Scene scene, engine::SceneLease lease,
                                              std::shared_ptr<const blobtree::OperatorTable> operators,
@@ -10,9 +10,9 @@ absl::StatusOr<StoredScene> SceneEditor::put(const std::string& name, v1::Scene 
   const std::lock_guard lock(residency_mutex_);
   ISOFIELD_ASSIGN_OR_RETURN(catalog::Catalog::Put put,
                             catalog_.put(name, std::move(scene), std::move(operators), condition));
-  engine_.keep(put.entry.version, lease);
+  residents_.keep(put.entry.version, lease);
   if (put.replaced_version != 0) {
-    engine_.drop(put.replaced_version);
+    residents_.drop(put.replaced_version);
     if (ahead_) ahead_->edited(put.entry.scene, put.entry.operators, lease);
   }
   return StoredScene{std::move(put.entry), std::move(lease)};
@@ -21,7 +21,7 @@ absl::StatusOr<StoredScene> SceneEditor::put(const std::string& name, v1::Scene 
 absl::Status SceneEditor::remove(const std::string& name) {
   const std::lock_guard lock(residency_mutex_);
   ISOFIELD_ASSIGN_OR_RETURN(const std::uint64_t version, catalog_.remove(name));
-  engine_.drop(version);
+  residents_.drop(version);
   return absl::OkStatus();
 }
 
@@ -41,8 +41,7 @@ absl::StatusOr<StoredScene> SceneEditor::try_edit(const std::string& name,
   ISOFIELD_ASSIGN_OR_RETURN(const catalog::Entry entry, catalog_.get(name));
   v1::Scene scene = *entry.scene;
   ISOFIELD_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> nodes, blobtree::apply_edits(edits, scene));
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease before,
-                            engine_.acquire(entry.version, *entry.scene, *entry.operators));
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease before, residents_.acquire(entry));
   ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease lease, engine_.edit(*before, scene, nodes, *entry.operators));
   // Against the version that was read, so that two editors at once lose nothing.
   catalog::Condition condition;
@@ -50,4 +49,4 @@ absl::StatusOr<StoredScene> SceneEditor::try_edit(const std::string& name,
   return put(name, std::move(scene), std::move(lease), entry.operators, condition);
 }
 
-}  // namespace isofield::rpc
+}  // namespace isofield::scenes

@@ -12,8 +12,9 @@
 #include "catalog/catalog.h"
 #include "engine/compile_ahead.h"
 #include "engine/engine.h"
+#include "scenes/resident_scenes.h"
 
-namespace isofield::rpc {
+namespace isofield::scenes {
 
 struct StoredScene {
   catalog::Entry entry;
@@ -24,8 +25,9 @@ struct StoredScene {
 class SceneEditor {
  public:
   // `ahead` is told of scenes that are edited or replaced; it may be null.
-  SceneEditor(catalog::Catalog& catalog, engine::Engine& engine, engine::CompileAhead* ahead)
-      : catalog_(catalog), engine_(engine), ahead_(ahead) {}
+  SceneEditor(catalog::Catalog& catalog, ResidentScenes& residents, engine::Engine& engine,
+              engine::CompileAhead* ahead)
+      : catalog_(catalog), residents_(residents), engine_(engine), ahead_(ahead) {}
 
   // Stores a scene. `lease` is its resident form. Errors are those of the catalog.
   absl::StatusOr<StoredScene> put(const std::string& name, v1::Scene scene, engine::SceneLease lease,
@@ -42,6 +44,7 @@ class SceneEditor {
                                        std::uint64_t expected_version);
 
   catalog::Catalog& catalog_;
+  ResidentScenes& residents_;
   engine::Engine& engine_;
   engine::CompileAhead* const ahead_;
   // Makes the resident scenes follow the catalog step by step. Otherwise, of two puts at once, the first scene could be
@@ -49,12 +52,4 @@ class SceneEditor {
   std::mutex residency_mutex_;
 };
 
-// The edits as they are sent.
-template <class Edits>
-std::vector<blobtree::ParameterEdit> read_edits(const Edits& edits) {
-  std::vector<blobtree::ParameterEdit> read;
-  for (const auto& e : edits) read.push_back({e.node(), e.field(), {e.values().begin(), e.values().end()}});
-  return read;
-}
-
-}  // namespace isofield::rpc
+}  // namespace isofield::scenes

@@ -4,7 +4,7 @@
 
 #include "base/status_macros.h"
 
-namespace isofield::rpc {
+namespace isofield::scenes {
 namespace {
 
 absl::Status no_scene() {
@@ -22,8 +22,7 @@ absl::StatusOr<LeasedScene> SceneSource::lease(const v1::SceneRef& ref) const {
   switch (ref.ref_case()) {
     case v1::SceneRef::kName: {
       ISOFIELD_ASSIGN_OR_RETURN(const catalog::Entry entry, catalog_.get(ref.name()));
-      ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease scene,
-                                engine_.acquire(entry.version, *entry.scene, *entry.operators));
+      ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease scene, residents_.acquire(entry));
       return LeasedScene{std::move(scene), entry.version, entry.scene};
     }
     case v1::SceneRef::kInline: {
@@ -52,4 +51,4 @@ absl::StatusOr<FoundScene> SceneSource::find(const v1::SceneRef& ref) const {
   }
 }
 
-}  // namespace isofield::rpc
+}  // namespace isofield::scenes

@@ -9,8 +9,9 @@
 #include "catalog/operator_catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/scene.pb.h"
+#include "scenes/resident_scenes.h"
 
-namespace isofield::rpc {
+namespace isofield::scenes {
 
 struct LeasedScene {
   engine::SceneLease scene;
@@ -30,17 +31,19 @@ struct FoundScene {
 // Thread-safe.
 class SceneSource {
  public:
-  SceneSource(catalog::Catalog& catalog, catalog::OperatorCatalog& operators, engine::Engine& engine)
-      : catalog_(catalog), operators_(operators), engine_(engine) {}
+  SceneSource(const catalog::Catalog& catalog, const catalog::OperatorCatalog& operators,
+              const ResidentScenes& residents, engine::Engine& engine)
+      : catalog_(catalog), operators_(operators), residents_(residents), engine_(engine) {}
 
   absl::StatusOr<LeasedScene> lease(const v1::SceneRef& ref) const;
   // The scene itself, of an inline one a copy.
   absl::StatusOr<FoundScene> find(const v1::SceneRef& ref) const;
 
  private:
-  catalog::Catalog& catalog_;
-  catalog::OperatorCatalog& operators_;
+  const catalog::Catalog& catalog_;
+  const catalog::OperatorCatalog& operators_;
+  const ResidentScenes& residents_;
   engine::Engine& engine_;
 };
 
-}  // namespace isofield::rpc
+}  // namespace isofield::scenes
