@@ -84,10 +84,16 @@ class Options {
         "Cells that a mesh request may look at, and as many as one without a cell size uses for thin parts; a million "
         "take about 0.5 s of one core and 20 MB")
         ->check(whole(64, std::uint64_t{1} << 30));
-    add("--max-queued-requests", c.limits.queue.max_requests, "Evaluate calls that wait or run")
+    add("--max-queued-requests", c.limits.batches.max_requests, "Evaluate calls that wait or run")
         ->check(whole(1, std::uint64_t{1} << 20));
-    add("--max-queued-points", c.limits.queue.max_points, "Points of Evaluate calls that wait or run")
+    add("--max-queued-points", c.limits.batches.max_points, "Points of Evaluate calls that wait or run")
         ->check(whole(1, std::uint64_t{1} << 32));
+    add("--max-running-requests", c.limits.requests.max_requests,
+        "Calls at work other than Evaluate, EvaluateStream and TrackMesh; a further one is refused at once")
+        ->check(whole(1, std::uint64_t{1} << 20));
+    add("--max-running-points", c.limits.requests.max_points,
+        "Points, rays, rows and cells of these calls; a call that comes alone may have more")
+        ->check(whole(1, std::uint64_t{1} << 48));
     add("--queue-delay-us", delay_us, "Microseconds that a small Evaluate call may be held back for others to join it")
         ->check(whole(0, 1'000'000));
     add_flag("--shared-memory", c.shared_memory,
@@ -285,7 +291,7 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
     return refuse(error.what());
   }
   Config c = options.c;
-  c.limits.queue.delay = std::chrono::microseconds(options.delay_us);
+  c.queue.delay = std::chrono::microseconds(options.delay_us);
   c.limits.max_streams = c.max_threads * 3 / 4;
   c.limits.max_tracked_meshes = c.max_threads / 8;
   return {std::move(c), 0};

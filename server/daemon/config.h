@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/kernels/kernel_cache.h"
+#include "engine/points/evaluation_queue.h"
 #include "rpc/limits.h"
 
 namespace isofield::daemon {
@@ -21,6 +22,7 @@ struct Config {
   std::uint64_t hot_points = 1u << 20;  // 0: no kernel is written
   bool compile_ahead = true;            // compile what edited scenes are likely to need next
   std::size_t max_kernels = engine::KernelOptions{}.most;
+  engine::QueueOptions queue;
   rpc::Limits limits;
 };
 

@@ -24,6 +24,7 @@
 #include "daemon/region_socket.h"
 #include "daemon/socket.h"
 #include "engine/engine.h"
+#include "rpc/admission.h"
 #include "rpc/call_log.h"
 #include "rpc/evaluate_calls.h"
 #include "rpc/evaluate_streams.h"
@@ -170,7 +171,7 @@ absl::Status run(const Config& config, const std::string& version) {
   const auto specialised = std::make_shared<engine::SpecialisedKernels>(kernel_folder(config));
   ISOFIELD_ASSIGN_OR_RETURN(
       const std::unique_ptr<engine::Engine> engine,
-      engine::Engine::create(options, config.limits.scene, config.limits.queue, tier_two(config),
+      engine::Engine::create(options, config.limits.scene, config.queue, tier_two(config),
                              {.most = config.max_kernels, .specialised = specialised}));
   const gpu::DeviceDescription& d = engine->device().description();
   spdlog::info("isofieldd {} on {} ({}, Vulkan {})", version, d.name, d.driver, d.vulkan_version);
@@ -184,16 +185,17 @@ absl::Status run(const Config& config, const std::string& version) {
   std::optional<engine::CompileAhead> ahead;
   if (config.compile_ahead) ahead.emplace(gpu::DeviceOptions{.name = config.device}, config.limits.scene, specialised);
   scenes::SceneEditor editor(catalog, residents, *engine, ahead ? &*ahead : nullptr);
-  rpc::SceneService scene_service(catalog, operators, residents, editor, *engine);
-  rpc::OperatorService operator_service(operators, scenes, *engine, limits);
+  rpc::Admission batches(limits.batches), requests(limits.requests);
+  rpc::SceneService scene_service(catalog, operators, residents, editor, *engine, requests);
+  rpc::OperatorService operator_service(operators, scenes, *engine, limits, requests);
   rpc::SharedRegions shared_regions(limits.shared);
   rpc::CallLog::Sink log_line;
   if (spdlog::should_log(spdlog::level::debug)) log_line = [](const std::string& line) { spdlog::debug("{}", line); };
   rpc::CallLog call_log(std::move(log_line));
-  rpc::FieldService field_service(scenes, *engine, limits, config.shared_memory ? &shared_regions : nullptr,
-                                  call_log);
-  rpc::MeshService mesh_service(scenes, editor, *engine, limits);
-  rpc::SurfaceService surface_service(scenes, *engine, limits);
+  rpc::FieldService field_service(scenes, *engine, limits, batches, requests,
+                                  config.shared_memory ? &shared_regions : nullptr, call_log);
+  rpc::MeshService mesh_service(scenes, editor, *engine, limits, requests);
+  rpc::SurfaceService surface_service(scenes, *engine, limits, requests);
   rpc::ReflectionService reflection_service(service_names());
   rpc::InfoService info_service(operators, residents, *engine, limits, version, region_socket_path(config));
   ISOFIELD_ASSIGN_OR_RETURN(const Running running, start_server(config,

@@ -10,7 +10,7 @@
 
 namespace isofield::engine {
 
-Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue,
+Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueOptions& queue,
                const TierTwoOptions& tier_two, const KernelOptions& kernels)
     : device_(std::move(device)),
       limits_(limits),
@@ -32,7 +32,7 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
       operators_(*device_, kernels_, volumes_) {}
 
 absl::StatusOr<std::unique_ptr<Engine>> Engine::create(const gpu::DeviceOptions& options,
-                                                       const blobtree::SceneLimits& limits, const QueueLimits& queue,
+                                                       const blobtree::SceneLimits& limits, const QueueOptions& queue,
                                                        const TierTwoOptions& tier_two, const KernelOptions& kernels) {
   ISOFIELD_ASSIGN_OR_RETURN(auto device, gpu::Device::create(options));
   return std::unique_ptr<Engine>(new Engine(std::move(device), limits, queue, tier_two, kernels));

@@ -29,7 +29,7 @@ class Engine {
  public:
   static absl::StatusOr<std::unique_ptr<Engine>> create(const gpu::DeviceOptions& options,
                                                         const blobtree::SceneLimits& limits,
-                                                        const QueueLimits& queue = {},
+                                                        const QueueOptions& queue = {},
                                                         const TierTwoOptions& tier_two = {},
                                                         const KernelOptions& kernels = {});
 
@@ -57,7 +57,7 @@ class Engine {
   OperatorEvaluator& operators() { return operators_; }
 
  private:
-  Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueLimits& queue,
+  Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueOptions& queue,
          const TierTwoOptions& tier_two, const KernelOptions& kernels);
   absl::Status prepare(const PointBatch& batch);
 

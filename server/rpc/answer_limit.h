@@ -54,17 +54,27 @@ class AnswerPage {
 };
 
 // Cuts an array of rows of `columns` numbers into parts of whole rows, of at most kPartBytes, and calls write(part) for
-// each of them; an empty array has no part. Returns false as soon as write() does.
+// each of them; an empty array has no part. Ends with the first error of write().
 template <class T, class Write>
-bool in_parts(std::span<const T> numbers, std::size_t columns, const Write& write) {
+absl::Status in_parts(std::span<const T> numbers, std::size_t columns, const Write& write) {
   const std::size_t most = kPartBytes / (columns * sizeof(T)) * columns;
   for (std::size_t at = 0; at < numbers.size(); at += most) {
-    if (!write(numbers.subspan(at, std::min(most, numbers.size() - at)))) return false;
+    if (absl::Status s = write(numbers.subspan(at, std::min(most, numbers.size() - at))); !s.ok()) return s;
   }
-  return true;
+  return absl::OkStatus();
 }
 
 // INVALID_ARGUMENT: the answer is to have plain numbers, and has more than kMaxNumberRows rows.
 absl::Status check_number_rows(bool answer_in_numbers, std::uint64_t rows);
+
+// What a client can do where an answer has too many rows.
+inline constexpr char kFewerRows[] = "ask for fewer rows";
+
+// Refuses a request for too large an answer before the work, by the bytes that a row of it takes at least.
+template <class Request>
+absl::Status check_answer_rows(const Request& request, std::uint64_t rows, std::uint64_t row_bytes) {
+  if (absl::Status s = check_number_rows(request.answer_in_numbers(), rows); !s.ok()) return s;
+  return AnswerLimit(request.max_answer_bytes()).admit(rows * row_bytes, kFewerRows);
+}
 
 }  // namespace isofield::rpc

@@ -2,6 +2,8 @@
 
 #include <atomic>
 
+#include "rpc/handler.h"
+
 namespace isofield::rpc {
 
 // From the wish for a call to the end of one. Deletes itself.
@@ -21,9 +23,9 @@ class EvaluateCalls::Call {
     }
     new Call(calls_);
     calls_.service_.evaluate(context_, incoming_, request_,
-                             [this](const grpc::Status& status, const grpc::ByteBuffer& response) {
-                               if (status.ok()) return responder_.Finish(response, status, &answered_);
-                               responder_.FinishWithError(status, &answered_);
+                             [this](const absl::Status& status, const grpc::ByteBuffer& response) {
+                               if (status.ok()) return responder_.Finish(response, grpc::Status::OK, &answered_);
+                               responder_.FinishWithError(finish(context_, status), &answered_);
                              });
   }
   void on_part_done() {

@@ -8,8 +8,8 @@
 
 #include "rpc/answer_limit.h"
 #include "rpc/evaluate_arguments.h"
+#include "rpc/handler.h"
 #include "rpc/result_message.h"
-#include "rpc/status.h"
 #include "rpc/unreadable_requests.h"
 
 namespace isofield::rpc {
@@ -39,6 +39,7 @@ class EvaluateStreams::Stream {
   struct Work {
     v1::EvaluateStreamRequest request;
     MessagePoints points;
+    Admission::Ticket ticket;             // of the points, until they are evaluated
     std::optional<ResultMessage> result;  // none: into shared memory
     std::deque<grpc::ByteBuffer> answers;  // the result's unwritten messages; empty until the first one is due
     bool is_done = false;
@@ -76,7 +77,7 @@ class EvaluateStreams::Stream {
     lock.unlock();
     // Until is_reading_ is false what follows is this thread's alone.
     auto work = std::make_unique<Work>();
-    const absl::Status status = parse(work->request);
+    const absl::Status status = guarded([&] { return parse(work->request); });
     Work* const to_do = status.ok() && PointFields(work->request).has_points() ? work.get() : nullptr;
     lock.lock();
     is_reading_ = false;
@@ -94,6 +95,7 @@ class EvaluateStreams::Stream {
   void on_evaluated(Work& work, absl::Status status) {
     Lock lock(mutex_);
     work.status = std::move(status);
+    work.ticket = {};
     work.is_done = true;
     leave(std::move(lock));
   }
@@ -128,7 +130,6 @@ class EvaluateStreams::Stream {
     limit_ = *limit;
     absl::StatusOr<engine::PointBatch> batch = streams_.service_.begin(context_, request);
     if (!batch.ok()) return batch.status();
-    batch->is_admitted = true;  // of each open stream some messages at a time
     batch->cancelled = [this] { return is_over_ || context_.IsCancelled(); };
     batch_ = *std::move(batch);
     return absl::OkStatus();
@@ -137,9 +138,11 @@ class EvaluateStreams::Stream {
   // A large one is evaluated on this thread.
   void evaluate(Work& work) {
     engine::PointBatch batch = *batch_;
-    absl::StatusOr<MessagePoints> points = streams_.service_.points_of(work.request, batch.quantity);
+    absl::StatusOr<MessagePoints> points =
+        guarded([&] { return streams_.service_.points_of(work.request, batch.quantity); });
     if (!points.ok()) return on_evaluated(work, points.status());
     work.points = *std::move(points);
+    work.ticket = streams_.service_.batches().count(work.points.points.size());
     if (CallNotes* const notes = streams_.service_.log().notes_of(context_)) {
       notes->add_work("points", work.points.points.size());
     }
@@ -156,7 +159,7 @@ class EvaluateStreams::Stream {
 
   // How the stream ends.
   void decide(const absl::Status& status) {
-    outcome_ = to_grpc(status);
+    outcome_ = status;
     is_over_ = !status.ok();
   }
 
@@ -183,7 +186,7 @@ class EvaluateStreams::Stream {
     if (outcome_ && !is_writing_ && !is_finished_) {
       is_finished_ = true;
       ++parts_;
-      peer_.Finish(*outcome_, &part_done_);
+      peer_.Finish(finish(context_, *outcome_), &part_done_);
     }
     if (!is_answer_ready || !is_writing_) return;
     Work& work = *work_.front();
@@ -225,7 +228,7 @@ class EvaluateStreams::Stream {
   int parts_ = 2;
   bool is_open_ = false, is_reading_ = false, is_writing_ = false, is_input_over_ = false, is_finished_ = false;
   absl::Status input_status_;
-  std::optional<grpc::Status> outcome_;
+  std::optional<absl::Status> outcome_;
   std::uint64_t points_answered_ = 0;
 };
 

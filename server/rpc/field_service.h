@@ -8,6 +8,7 @@
 #include "isofield/v1/field_service.grpc.pb.h"
 #include "rpc/call_log.h"
 #include "rpc/evaluate_arguments.h"
+#include "rpc/handler.h"
 #include "rpc/limits.h"
 #include "rpc/shared_regions.h"
 #include "scenes/scene_source.h"
@@ -18,25 +19,36 @@ namespace isofield::rpc {
 class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
                                v1::FieldService::WithRawMethod_EvaluateStream<v1::FieldService::Service>> {
  public:
-  // `regions`: null where no memory is shared.
-  FieldService(const scenes::SceneSource& scenes, engine::Engine& engine, const Limits& limits,
-               const SharedRegions* regions, const CallLog& log)
-      : scenes_(scenes), engine_(engine), limits_(limits), regions_(regions), log_(log) {}
+  // `batches` admits points of Evaluate and counts those of EvaluateStream, `grids` admits grids. `regions` is null
+  // where no memory is shared.
+  FieldService(const scenes::SceneSource& scenes, engine::Engine& engine, const Limits& limits, Admission& batches,
+               Admission& grids, const SharedRegions* regions, const CallLog& log)
+      : scenes_(scenes),
+        engine_(engine),
+        limits_(limits),
+        batches_(batches),
+        grids_(grids),
+        regions_(regions),
+        log_(log) {}
 
   // Takes the status and, if it is OK, the bytes of an EvaluateResponse.
-  using Answer = std::function<void(const grpc::Status&, const grpc::ByteBuffer& response)>;
+  using Answer = std::function<void(const absl::Status&, const grpc::ByteBuffer& response)>;
   // Reads `incoming` into `request`. Calls `done` once, on this thread or another; all arguments must live until then.
-  void evaluate(grpc::ServerContext& context, grpc::ByteBuffer& incoming, v1::EvaluateRequest& request, Answer done);
+  void evaluate(const grpc::ServerContext& context, grpc::ByteBuffer& incoming, v1::EvaluateRequest& request,
+                Answer done);
   // What the first message of a stream says of all; without points.
   absl::StatusOr<engine::PointBatch> begin(const grpc::ServerContext& context,
                                            const v1::EvaluateStreamRequest& first) const;
   absl::StatusOr<MessagePoints> points_of(const v1::EvaluateStreamRequest& request, engine::Quantity quantity) const;
   engine::Engine& engine() { return engine_; }
   const Limits& limits() const { return limits_; }
+  Admission& batches() { return batches_; }
   const CallLog& log() const { return log_; }
 
-  grpc::Status EvaluateGrid(grpc::ServerContext*, const v1::EvaluateGridRequest*,
-                            grpc::ServerWriter<v1::EvaluateGridResponse>*) override;
+  grpc::Status EvaluateGrid(grpc::ServerContext* context, const v1::EvaluateGridRequest* request,
+                            grpc::ServerWriter<v1::EvaluateGridResponse>* writer) override {
+    return serve(*context, grids_, [&](Call& call) { return evaluate_grid(call, *request, *writer); });
+  }
 
  private:
   struct Evaluation;
@@ -45,10 +57,14 @@ class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
   // Makes a batch that lacks its points, and notes the request's scene for the log.
   template <class Request>
   absl::StatusOr<engine::PointBatch> batch_of(const grpc::ServerContext& context, const Request& request) const;
+  absl::Status evaluate_grid(Call& call, const v1::EvaluateGridRequest& request,
+                             grpc::ServerWriter<v1::EvaluateGridResponse>& writer);
 
   const scenes::SceneSource& scenes_;
   engine::Engine& engine_;
   const Limits& limits_;
+  Admission& batches_;
+  Admission& grids_;
   const SharedRegions* const regions_;
   const CallLog& log_;
 };

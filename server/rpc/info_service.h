@@ -7,6 +7,7 @@
 #include "catalog/operator_catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/info_service.grpc.pb.h"
+#include "rpc/handler.h"
 #include "rpc/limits.h"
 #include "scenes/resident_scenes.h"
 
@@ -24,9 +25,17 @@ class InfoService final : public v1::InfoService::Service {
         version_(std::move(version)),
         region_socket_(std::move(region_socket)) {}
 
-  grpc::Status GetInfo(grpc::ServerContext*, const v1::GetInfoRequest*, v1::GetInfoResponse*) override;
+  // A full server still tells about itself: this call alone needs no admission.
+  grpc::Status GetInfo(grpc::ServerContext* context, const v1::GetInfoRequest*,
+                       v1::GetInfoResponse* response) override {
+    return finish(*context, guarded([&] { return get(*response); }));
+  }
 
  private:
+  absl::Status get(v1::GetInfoResponse& response) const;
+  void fill_device(v1::DeviceInfo& device) const;
+  void fill_limits(v1::Limits& limits) const;
+
   const catalog::OperatorCatalog& operators_;
   const scenes::ResidentScenes& residents_;
   engine::Engine& engine_;

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "blobtree/scene/scene.h"
-#include "engine/points/evaluation_queue.h"
+#include "rpc/admission.h"
 #include "rpc/shared_regions.h"
 
 namespace isofield::rpc {
@@ -20,7 +20,13 @@ struct Limits {
   std::uint64_t max_points_per_message = 1u << 20;
   std::uint64_t max_grid_points = 1ull << 32;
   std::uint64_t max_mesh_cells = 1u << 25;
-  engine::QueueLimits queue;
+  // Evaluate calls that wait or run.
+  AdmissionLimits batches{
+      .max_requests = 1024, .max_points = 1u << 23, .flags = "--max-queued-requests, --max-queued-points"};
+  // Other calls that are at work. By default there is room for more of them than there are threads, and for sixteen of
+  // the largest grids.
+  AdmissionLimits requests{
+      .max_requests = 1024, .max_points = 1ull << 36, .flags = "--max-running-requests, --max-running-points"};
   SharedLimits shared;
 };
 

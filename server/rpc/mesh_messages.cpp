@@ -85,6 +85,23 @@ absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& req
   return r;
 }
 
+std::uint64_t estimated_cells(const blobtree::Tape& tape, const engine::MeshRequest& request) {
+  const absl::StatusOr<blobtree::Lattice> lattice = engine::mesh_lattice(tape, request);
+  if (!lattice.ok()) return 0;  // the mesher refuses the request
+  const auto [x, y, z] = lattice->cells;
+  std::uint64_t cells = 2 * (std::uint64_t{x} * y + std::uint64_t{y} * z + std::uint64_t{z} * x);
+  if (request.part) {
+    std::uint64_t part = blobtree::kCellsPerBrick;
+    for (int i = 0; i < 3; ++i) {
+      const std::uint64_t bricks = (lattice->cells[i] + blobtree::kBrickCells - 1) / blobtree::kBrickCells;
+      part *= std::min<std::uint64_t>(request.part->high[i], bricks) -
+              std::min<std::uint64_t>(request.part->low[i], bricks);
+    }
+    cells = std::min(cells, part);
+  }
+  return std::min(cells, request.max_cells);
+}
+
 absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRequest& request) {
   if (!request.has_simplification_error()) return std::nullopt;
   return read_length("simplification_error", request.simplification_error());

@@ -22,6 +22,10 @@ absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& req
                                                       const engine::ResidentScene& scene, const engine::Mesher& mesher,
                                                       const Limits& limits, const std::function<bool()>& cancelled);
 
+// About how many cells the surface crosses, by which admission estimates the work: as many as cover the faces of the
+// lattice, within the part and the limit that the request states.
+std::uint64_t estimated_cells(const blobtree::Tape& tape, const engine::MeshRequest& request);
+
 // Model units; nothing: none is asked for.
 absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRequest& request);
 engine::ShellFilter read_shell_filter(const v1::MeshRequest& request);
@@ -33,17 +37,17 @@ absl::Status check_as_made(const v1::MeshRequest& request);
 std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::size_t& vertex, std::size_t& triangle,
                         v1::MeshBricks& message);
 
-// Calls write(MeshBricks) with `cells` in pieces that messages hold, none where there is nothing; false from it ends
-// that.
+// Calls write(MeshBricks) with `cells` in pieces that messages hold, none where there is nothing. Ends with the first
+// error of write().
 template <class Write>
-bool write_bricks(const engine::MeshCells& cells, const Write& write) {
+absl::Status write_bricks(const engine::MeshCells& cells, const Write& write) {
   std::size_t vertex = 0, triangle = 0;
   for (std::size_t at = 0; at < cells.bricks.size();) {
     v1::MeshBricks message;
     at = fill_bricks(cells, at, vertex, triangle, message);
-    if (!write(std::move(message))) return false;
+    if (absl::Status s = write(std::move(message)); !s.ok()) return s;
   }
-  return true;
+  return absl::OkStatus();
 }
 
 // What a mesh is summed up from, while it is made.

@@ -8,6 +8,7 @@
 
 #include "engine/mesh/mesh_request.h"
 #include "isofield/v1/mesh_service.pb.h"
+#include "rpc/handler.h"
 
 namespace isofield::rpc {
 
@@ -49,12 +50,12 @@ class MeshProgressWriter {
 
 // Callbacks that write progress, and ask whether the client still waits.
 template <class Response>
-engine::MeshCallbacks mesh_callbacks(grpc::ServerContext& context, grpc::ServerWriter<Response>& writer) {
+engine::MeshCallbacks mesh_callbacks(const Call& call, grpc::ServerWriter<Response>& writer) {
   const auto progress = std::make_shared<MeshProgressWriter<Response>>(writer);
   return {
       .progress = [progress](double fraction) { progress->at(fraction); },
       .compiling = [progress] { progress->compiling(); },
-      .cancelled = [&context] { return context.IsCancelled(); },
+      .cancelled = call.cancelled(),
   };
 }
 

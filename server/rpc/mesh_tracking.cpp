@@ -65,34 +65,37 @@ absl::Status MeshTracking::follow(const v1::TrackMeshRequest& request) {
 
 absl::Status MeshTracking::answer(const scenes::LeasedScene& leased) {
   MeshTotals totals;
+  const Admission::Ticket ticket = admission_.count(estimated_cells(leased.scene->tape(), request_));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::MeshTracker::Update update,
                             tracker_->update(leased.scene, {.cancelled = [&] { return context_.IsCancelled(); }}));
   ++version_;
   // The last message is held back until it is known to be that.
   v1::MeshUpdate next;
   next.set_is_whole(update.is_whole);
-  absl::Status status;
   const auto write_next = [&] {
     next.set_scene_version(leased.version);
-    status = write(std::exchange(next, {}));
-    return status.ok();
+    return write(std::exchange(next, {}));
   };
   std::vector<std::uint32_t> removed;
   for (const auto& brick : update.removed) removed.insert(removed.end(), brick.begin(), brick.end());
-  const bool is_sent = in_parts(std::span<const std::uint32_t>(removed), 3, [&](std::span<const std::uint32_t> rows) {
-    if (next.has_removed() && !write_next()) return false;
+  const auto add_removed = [&](std::span<const std::uint32_t> rows) {
+    if (next.has_removed()) {
+      ISOFIELD_RETURN_IF_ERROR(write_next());
+    }
     set_rows(rows, 3, *next.mutable_removed());
-    return true;
-  });
-  if (!is_sent) return status;
+    return absl::OkStatus();
+  };
+  const auto add_bricks = [&](v1::MeshBricks bricks) {
+    if (next.has_bricks()) {
+      ISOFIELD_RETURN_IF_ERROR(write_next());
+    }
+    *next.mutable_bricks() = std::move(bricks);
+    return absl::OkStatus();
+  };
+  ISOFIELD_RETURN_IF_ERROR(in_parts(std::span<const std::uint32_t>(removed), 3, add_removed));
   for (const engine::MeshCells& cells : update.changed) {
     totals.cells += cells.cells;
-    const bool written = write_bricks(cells, [&](v1::MeshBricks bricks) {
-      if (next.has_bricks() && !write_next()) return false;
-      *next.mutable_bricks() = std::move(bricks);
-      return true;
-    });
-    if (!written) return status;
+    ISOFIELD_RETURN_IF_ERROR(write_bricks(cells, add_bricks));
   }
   totals.vertices = tracker_->vertices();
   totals.triangles = tracker_->triangles();

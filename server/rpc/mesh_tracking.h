@@ -12,6 +12,7 @@
 #include "engine/engine.h"
 #include "engine/mesh/mesh_tracker.h"
 #include "isofield/v1/mesh_service.grpc.pb.h"
+#include "rpc/admission.h"
 #include "rpc/limits.h"
 #include "rpc/mesh_messages.h"
 #include "scenes/scene_editor.h"
@@ -22,11 +23,18 @@ namespace isofield::rpc {
 // A stream of TrackMesh whose requests are read as the bytes of TrackMeshRequests.
 using TrackMeshStream = grpc::ServerReaderWriter<v1::TrackMeshResponse, grpc::ByteBuffer>;
 
+// Its updates are counted as work, but never refused: limits.max_tracked_meshes bounds how many streams there are.
 class MeshTracking {
  public:
   MeshTracking(const scenes::SceneSource& scenes, scenes::SceneEditor& editor, engine::Engine& engine,
-               const Limits& limits, grpc::ServerContext& context, TrackMeshStream& stream)
-      : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits), context_(context), stream_(stream) {}
+               const Limits& limits, Admission& admission, grpc::ServerContext& context, TrackMeshStream& stream)
+      : scenes_(scenes),
+        editor_(editor),
+        engine_(engine),
+        limits_(limits),
+        admission_(admission),
+        context_(context),
+        stream_(stream) {}
 
   // Answers requests until the client ends the stream.
   absl::Status run();
@@ -41,6 +49,7 @@ class MeshTracking {
   scenes::SceneEditor& editor_;
   engine::Engine& engine_;
   const Limits& limits_;
+  Admission& admission_;
   grpc::ServerContext& context_;
   TrackMeshStream& stream_;
 

@@ -9,7 +9,6 @@
 #include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/operator_arguments.h"
-#include "rpc/status.h"
 #include "rpc/tensor.h"
 #include "scenes/opening_pick.h"
 
@@ -31,14 +30,6 @@ void fill_summary(const std::string& name, std::uint64_t version, const v1::Oper
   summary.set_description(std::string(base::utf8_prefix(message.description(), kMostDescription)));
 }
 
-constexpr char kFewerRows[] = "ask for fewer rows";
-
-// Checks the size of the answer before the evaluation.
-absl::Status check_answer(const v1::EvaluateOperatorRequest& request, std::uint64_t rows, std::uint64_t columns) {
-  ISOFIELD_RETURN_IF_ERROR(check_number_rows(request.answer_in_numbers(), rows));
-  return AnswerLimit(request.max_answer_bytes()).admit(rows * columns * sizeof(float), kFewerRows);
-}
-
 void fill_summary(const catalog::OperatorEntry& entry, const engine::VolumeCache& volumes,
                   v1::OperatorSummary& summary) {
   fill_summary(entry.name, entry.version, *entry.message, *entry.op, summary);
@@ -55,60 +46,50 @@ absl::Status OperatorService::put(const v1::PutOperatorRequest& request, v1::Put
   return absl::OkStatus();
 }
 
-grpc::Status OperatorService::PutOperator(grpc::ServerContext*, const v1::PutOperatorRequest* request,
-                                          v1::PutOperatorResponse* response) {
-  return to_grpc(put(*request, *response));
-}
-
-grpc::Status OperatorService::GetOperator(grpc::ServerContext*, const v1::GetOperatorRequest* request,
-                                          v1::GetOperatorResponse* response) {
-  if (std::optional<v1::Operator> built_in = catalog::built_in_operator(request->name())) {
-    fill_summary(request->name(), 0, *built_in, blobtree::unread_operator(*built_in), *response->mutable_summary());
-    *response->mutable_operator_() = *std::move(built_in);
-    return grpc::Status::OK;
+absl::Status OperatorService::get(const v1::GetOperatorRequest& request, v1::GetOperatorResponse& response) {
+  if (std::optional<v1::Operator> built_in = catalog::built_in_operator(request.name())) {
+    fill_summary(request.name(), 0, *built_in, blobtree::unread_operator(*built_in), *response.mutable_summary());
+    *response.mutable_operator_() = *std::move(built_in);
+    return absl::OkStatus();
   }
-  const absl::StatusOr<catalog::OperatorEntry> entry = operators_.get(request->name());
-  if (!entry.ok()) return to_grpc(entry.status());
+  ISOFIELD_ASSIGN_OR_RETURN(const catalog::OperatorEntry entry, operators_.get(request.name()));
   // The size is checked before the operator is copied, and again with the summary.
-  const AnswerLimit limit(request->max_answer_bytes());
-  const char* const instead = "receive larger messages";
-  if (absl::Status s = limit.admit(entry->message->ByteSizeLong(), instead); !s.ok()) return to_grpc(s);
-  fill_summary(*entry, engine_.volumes(), *response->mutable_summary());
-  *response->mutable_operator_() = *entry->message;
-  return to_grpc(limit.admit(response->ByteSizeLong(), instead));
+  ISOFIELD_RETURN_IF_ERROR(
+      AnswerLimit(request.max_answer_bytes()).admit(entry.message->ByteSizeLong(), kLargerMessages));
+  fill_summary(entry, engine_.volumes(), *response.mutable_summary());
+  *response.mutable_operator_() = *entry.message;
+  return absl::OkStatus();
 }
 
-grpc::Status OperatorService::ListOperators(grpc::ServerContext*, const v1::ListOperatorsRequest* request,
-                                            v1::ListOperatorsResponse* response) {
+absl::Status OperatorService::list(const v1::ListOperatorsRequest& request, v1::ListOperatorsResponse& response) {
   AnswerPage page;
   const auto add = [&](v1::OperatorSummary summary) {
     if (!page.admit(summary.ByteSizeLong())) return false;
-    *response->add_operators() = std::move(summary);
+    *response.add_operators() = std::move(summary);
     return true;
   };
   for (const std::string& name : catalog::built_in_names()) {
-    if (!request->after().empty()) break;
+    if (!request.after().empty()) break;
     v1::OperatorSummary summary;
     const v1::Operator message = *catalog::built_in_operator(name);
     fill_summary(name, 0, message, blobtree::unread_operator(message), summary);
     add(std::move(summary));  // these few have room
   }
-  for (const catalog::OperatorEntry& entry : operators_.list(request->after())) {
+  for (const catalog::OperatorEntry& entry : operators_.list(request.after())) {
     v1::OperatorSummary summary;
     fill_summary(entry, engine_.volumes(), summary);
     if (add(std::move(summary))) continue;
-    response->set_has_more(true);
+    response.set_has_more(true);
     break;
   }
-  return grpc::Status::OK;
+  return absl::OkStatus();
 }
 
-grpc::Status OperatorService::DeleteOperator(grpc::ServerContext*, const v1::DeleteOperatorRequest* request,
-                                             v1::DeleteOperatorResponse*) {
-  return to_grpc(operators_.remove(request->name()));
+absl::Status OperatorService::remove(const v1::DeleteOperatorRequest& request) {
+  return operators_.remove(request.name());
 }
 
-absl::Status OperatorService::evaluate_opening(const v1::EvaluateOperatorRequest& request,
+absl::Status OperatorService::evaluate_opening(Call& call, const v1::EvaluateOperatorRequest& request,
                                                v1::EvaluateOperatorResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const operators::Opening opening, blobtree::read_opening(request.opening()));
   ISOFIELD_ASSIGN_OR_RETURN(
@@ -116,45 +97,48 @@ absl::Status OperatorService::evaluate_opening(const v1::EvaluateOperatorRequest
       OperatorArguments::read_alphas(request.columns(), request.arguments(), limits_.max_points_per_message));
   response.add_columns("theta");
   response.add_columns("dtheta_dalpha");
-  ISOFIELD_RETURN_IF_ERROR(check_answer(request, alphas.rows(), 2));
+  ISOFIELD_RETURN_IF_ERROR(check_answer_rows(request, alphas.rows(), 2 * sizeof(float)));
+  ISOFIELD_RETURN_IF_ERROR(call.admit(alphas.rows()));
   const std::span<float> out = make_float_tensor({alphas.rows(), 2}, *response.mutable_results());
   if (out.empty()) return absl::OkStatus();
   return engine_.operators().evaluate_opening(opening, alphas.numbers(), out);
 }
 
-absl::Status OperatorService::evaluate(const v1::EvaluateOperatorRequest& request,
-                                       v1::EvaluateOperatorResponse& response) {
-  if (request.operator_case() == v1::EvaluateOperatorRequest::kOpening) return evaluate_opening(request, response);
-  std::shared_ptr<const operators::Operator> op;
+absl::StatusOr<std::shared_ptr<const operators::Operator>> OperatorService::choose(const v1::EvaluateOperatorRequest& request) const {
   std::optional<v1::Operator> built_in;
-  if (request.operator_case() == v1::EvaluateOperatorRequest::kName) {
-    built_in = catalog::built_in_operator(request.name());
+  switch (request.operator_case()) {
+    case v1::EvaluateOperatorRequest::kName:
+      built_in = catalog::built_in_operator(request.name());
+      if (!built_in) {
+        ISOFIELD_ASSIGN_OR_RETURN(catalog::OperatorEntry entry, operators_.get(request.name()));
+        return std::move(entry.op);
+      }
+      break;
+    case v1::EvaluateOperatorRequest::kInline:
+      break;
+    default:
+      return absl::InvalidArgumentError("operator: expected a name, an inline operator, or an opening");
   }
-  if (built_in || request.operator_case() == v1::EvaluateOperatorRequest::kInline) {
-    const v1::Operator& message = built_in ? *built_in : request.inline_();
-    ISOFIELD_ASSIGN_OR_RETURN(op, blobtree::read_operator(message));
-  } else if (request.operator_case() == v1::EvaluateOperatorRequest::kName) {
-    ISOFIELD_ASSIGN_OR_RETURN(catalog::OperatorEntry entry, operators_.get(request.name()));
-    op = std::move(entry.op);
-  } else {
-    return absl::InvalidArgumentError("operator: expected a name, an inline operator, or an opening");
+  const v1::Operator& message = built_in ? *built_in : request.inline_();
+  return blobtree::read_operator(message);
+}
+
+absl::Status OperatorService::evaluate(Call& call, const v1::EvaluateOperatorRequest& request,
+                                       v1::EvaluateOperatorResponse& response) {
+  if (request.operator_case() == v1::EvaluateOperatorRequest::kOpening) {
+    return evaluate_opening(call, request, response);
   }
+  ISOFIELD_ASSIGN_OR_RETURN(const auto op, choose(request));
   ISOFIELD_ASSIGN_OR_RETURN(
       const OperatorArguments arguments,
       OperatorArguments::read(argument_shape(*op), request.columns(), request.arguments(), limits_.max_points_per_message));
   const std::vector<std::string> columns = arguments.result_columns();
   response.mutable_columns()->Assign(columns.begin(), columns.end());
-  ISOFIELD_RETURN_IF_ERROR(check_answer(request, arguments.rows(), columns.size()));
+  ISOFIELD_RETURN_IF_ERROR(check_answer_rows(request, arguments.rows(), columns.size() * sizeof(float)));
+  ISOFIELD_RETURN_IF_ERROR(call.admit(arguments.rows()));
   const std::span<float> out = make_float_tensor({arguments.rows(), columns.size()}, *response.mutable_results());
   if (out.empty()) return absl::OkStatus();
   return engine_.operators().evaluate(op, arguments.operands(), arguments.steering(), arguments.numbers(), out);
-}
-
-grpc::Status OperatorService::EvaluateOperator(grpc::ServerContext*, const v1::EvaluateOperatorRequest* request,
-                                               v1::EvaluateOperatorResponse* response) {
-  if (absl::Status s = evaluate(*request, *response); !s.ok()) return to_grpc(s);
-  if (request->answer_in_numbers()) write_as_numbers(*response->mutable_results());
-  return to_grpc(AnswerLimit(request->max_answer_bytes()).admit(response->ByteSizeLong(), kFewerRows));
 }
 
 absl::Status OperatorService::pick(const v1::PickOpeningRequest& request, v1::PickOpeningResponse& response) {
@@ -167,11 +151,6 @@ absl::Status OperatorService::pick(const v1::PickOpeningRequest& request, v1::Pi
   response.set_f1(pick.f1);
   response.set_f2(pick.f2);
   return absl::OkStatus();
-}
-
-grpc::Status OperatorService::PickOpening(grpc::ServerContext*, const v1::PickOpeningRequest* request,
-                                          v1::PickOpeningResponse* response) {
-  return to_grpc(pick(*request, *response));
 }
 
 }  // namespace isofield::rpc

@@ -5,6 +5,7 @@
 #include "catalog/operator_catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/scene_service.grpc.pb.h"
+#include "rpc/handler.h"
 #include "scenes/resident_scenes.h"
 #include "scenes/scene_editor.h"
 
@@ -13,19 +14,49 @@ namespace isofield::rpc {
 class SceneService final : public v1::SceneService::Service {
  public:
   SceneService(const catalog::Catalog& catalog, const catalog::OperatorCatalog& operators,
-               const scenes::ResidentScenes& residents, scenes::SceneEditor& editor, engine::Engine& engine)
-      : catalog_(catalog), operators_(operators), residents_(residents), editor_(editor), engine_(engine) {}
+               const scenes::ResidentScenes& residents, scenes::SceneEditor& editor, engine::Engine& engine,
+               Admission& admission)
+      : catalog_(catalog),
+        operators_(operators),
+        residents_(residents),
+        editor_(editor),
+        engine_(engine),
+        admission_(admission) {}
 
-  grpc::Status PutScene(grpc::ServerContext*, const v1::PutSceneRequest*, v1::PutSceneResponse*) override;
-  grpc::Status GetScene(grpc::ServerContext*, const v1::GetSceneRequest*, v1::GetSceneResponse*) override;
-  grpc::Status GetSceneParts(grpc::ServerContext*, const v1::GetSceneRequest*,
-                             grpc::ServerWriter<v1::ScenePart>*) override;
-  grpc::Status ListScenes(grpc::ServerContext*, const v1::ListScenesRequest*, v1::ListScenesResponse*) override;
-  grpc::Status DeleteScene(grpc::ServerContext*, const v1::DeleteSceneRequest*, v1::DeleteSceneResponse*) override;
-  grpc::Status EditParameters(grpc::ServerContext*, const v1::EditParametersRequest*,
-                              v1::EditParametersResponse*) override;
+  grpc::Status PutScene(grpc::ServerContext* context, const v1::PutSceneRequest* request,
+                        v1::PutSceneResponse* response) override {
+    return serve(*context, admission_, [&](Call&) { return put(*request, *response); });
+  }
+  grpc::Status GetScene(grpc::ServerContext* context, const v1::GetSceneRequest* request,
+                        v1::GetSceneResponse* response) override {
+    return serve_limited(*context, admission_, *request, *response, kSceneParts,
+                         [&](Call&) { return get(*request, *response); });
+  }
+  grpc::Status GetSceneParts(grpc::ServerContext* context, const v1::GetSceneRequest* request,
+                             grpc::ServerWriter<v1::ScenePart>* writer) override {
+    return serve(*context, admission_, [&](Call&) { return get_parts(*request, *writer); });
+  }
+  grpc::Status ListScenes(grpc::ServerContext* context, const v1::ListScenesRequest* request,
+                          v1::ListScenesResponse* response) override {
+    return serve(*context, admission_, [&](Call&) { return list(*request, *response); });
+  }
+  grpc::Status DeleteScene(grpc::ServerContext* context, const v1::DeleteSceneRequest* request,
+                           v1::DeleteSceneResponse*) override {
+    return serve(*context, admission_, [&](Call&) { return editor_.remove(request->name()); });
+  }
+  grpc::Status EditParameters(grpc::ServerContext* context, const v1::EditParametersRequest* request,
+                              v1::EditParametersResponse* response) override {
+    return serve(*context, admission_, [&](Call&) { return edit(*request, *response); });
+  }
 
  private:
+  static constexpr char kSceneParts[] = "ask GetSceneParts, which answers scenes of any size";
+
+  absl::Status put(const v1::PutSceneRequest& request, v1::PutSceneResponse& response);
+  absl::Status get(const v1::GetSceneRequest& request, v1::GetSceneResponse& response);
+  absl::Status get_parts(const v1::GetSceneRequest& request, grpc::ServerWriter<v1::ScenePart>& writer);
+  absl::Status list(const v1::ListScenesRequest& request, v1::ListScenesResponse& response);
+  absl::Status edit(const v1::EditParametersRequest& request, v1::EditParametersResponse& response);
   absl::Status summarise(const catalog::Entry& entry, v1::SceneSummary& summary);
 
   const catalog::Catalog& catalog_;
@@ -33,6 +64,7 @@ class SceneService final : public v1::SceneService::Service {
   const scenes::ResidentScenes& residents_;
   scenes::SceneEditor& editor_;
   engine::Engine& engine_;
+  Admission& admission_;
 };
 
 }  // namespace isofield::rpc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <absl/status/status.h>
+#include <absl/strings/string_view.h>
 #include <grpcpp/support/status.h>
 
 namespace isofield::rpc {
@@ -16,5 +17,8 @@ grpc::Status to_grpc(const absl::Status& status);
 
 // CANCELLED: nobody is there to take an answer.
 absl::Status client_gone();
+
+// INTERNAL: an exception that no handler expects.
+absl::Status unexpected(absl::string_view what);
 
 }  // namespace isofield::rpc

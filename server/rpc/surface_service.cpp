@@ -12,7 +12,6 @@
 #include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/slice_plane.h"
-#include "rpc/status.h"
 #include "rpc/tensor.h"
 
 namespace isofield::rpc {
@@ -21,24 +20,6 @@ namespace {
 constexpr int kMaxLevels = 64;
 // Of the longest edge of the supports: the tolerance of a projection that states none.
 constexpr double kProjectionTolerance = 1e-5;
-
-constexpr char kFewerRows[] = "ask for fewer rows", kSmallerPlane[] = "ask for a part of the plane";
-
-// Checks a batch before the work, by the bytes that a row of the answer takes at least.
-template <class Request>
-absl::Status check_batch(const Request& request, std::uint64_t rows, std::uint64_t row_bytes) {
-  ISOFIELD_RETURN_IF_ERROR(check_number_rows(request.answer_in_numbers(), rows));
-  return AnswerLimit(request.max_answer_bytes()).admit(rows * row_bytes, kFewerRows);
-}
-
-// Writes a batch's arrays as the request asks for, and checks the size of the whole answer.
-template <class Request, class Response>
-absl::Status finish_batch(const Request& request, std::initializer_list<v1::Tensor*> arrays, Response& response) {
-  if (request.answer_in_numbers()) {
-    for (v1::Tensor* array : arrays) write_as_numbers(*array);
-  }
-  return AnswerLimit(request.max_answer_bytes()).admit(response.ByteSizeLong(), kFewerRows);
-}
 
 constexpr RowArray::Words kPoints{"points", "points", "send them in parts"};
 
@@ -106,8 +87,7 @@ absl::Status check_levels(const v1::SliceRequest& request) {
 
 }  // namespace
 
-absl::Status SurfaceService::cast(const grpc::ServerContext& context, const v1::CastRaysRequest& request,
-                                  v1::CastRaysResponse& response) {
+absl::Status SurfaceService::cast(Call& call, const v1::CastRaysRequest& request, v1::CastRaysResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   const std::uint64_t most = limits_.max_points_per_message;
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray origins,
@@ -115,7 +95,7 @@ absl::Status SurfaceService::cast(const grpc::ServerContext& context, const v1::
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray directions,
                             PointArray::read(request.directions(), most, {"directions", "rays", "send them in parts"}));
   ISOFIELD_RETURN_IF_ERROR(check_rays(origins, directions));
-  ISOFIELD_RETURN_IF_ERROR(check_batch(request, origins.size(), 33));
+  ISOFIELD_RETURN_IF_ERROR(check_answer_rows(request, origins.size(), 33));
   engine::RayRequest r{.origins = origins.xyz(), .directions = directions.xyz()};
   ISOFIELD_ASSIGN_OR_RETURN(r.surface, read_surface(request, leased.scene->tape(), limits_));
   if (request.has_max_distance()) {
@@ -125,8 +105,8 @@ absl::Status SurfaceService::cast(const grpc::ServerContext& context, const v1::
     }
     r.max_distance = request.max_distance();
   }
-  ISOFIELD_ASSIGN_OR_RETURN(engine::RayHits hits,
-                            engine_.rays().cast(leased.scene, r, [&] { return context.IsCancelled(); }));
+  ISOFIELD_RETURN_IF_ERROR(call.admit(origins.size()));
+  ISOFIELD_ASSIGN_OR_RETURN(engine::RayHits hits, engine_.rays().cast(leased.scene, r, call.cancelled()));
   set_names(*leased.message, hits.nodes, response);
   set_rows(std::span<const float>(hits.distances), 1, *response.mutable_distances());
   set_rows(std::span<const float>(hits.positions), 3, *response.mutable_positions());
@@ -135,19 +115,16 @@ absl::Status SurfaceService::cast(const grpc::ServerContext& context, const v1::
   set_rows(std::span<const std::uint8_t>(hits.inside), 1, *response.mutable_inside());
   response.set_cell_size(hits.cell_size);
   response.set_scene_version(leased.version);
-  return finish_batch(request,
-                      {response.mutable_distances(), response.mutable_positions(), response.mutable_normals(),
-                       response.mutable_nodes(), response.mutable_inside()},
-                      response);
+  return absl::OkStatus();
 }
 
-absl::Status SurfaceService::project(const grpc::ServerContext& context, const v1::ProjectPointsRequest& request,
+absl::Status SurfaceService::project(Call& call, const v1::ProjectPointsRequest& request,
                                      v1::ProjectPointsResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray points,
                             PointArray::read(request.points(), limits_.max_points_per_message, kPoints));
   const blobtree::Tape& tape = leased.scene->tape();
-  ISOFIELD_RETURN_IF_ERROR(check_batch(request, points.size(), 29));
+  ISOFIELD_RETURN_IF_ERROR(check_answer_rows(request, points.size(), 29));
   engine::ProjectionRequest r{.points = points.xyz()};
   ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
   if (request.has_tolerance()) {
@@ -158,51 +135,49 @@ absl::Status SurfaceService::project(const grpc::ServerContext& context, const v
     return absl::InvalidArgumentError(
         "tolerance: expected, since the operators of this scene do not bound its field by themselves");
   }
+  ISOFIELD_RETURN_IF_ERROR(call.admit(points.size()));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::Projections found,
-                            engine_.projector().project(*leased.scene, r, [&] { return context.IsCancelled(); }));
+                            engine_.projector().project(*leased.scene, r, call.cancelled()));
   set_rows(std::span(found.positions), 3, *response.mutable_positions());
   set_rows(std::span(found.normals), 3, *response.mutable_normals());
   set_rows(std::span(found.converged), 1, *response.mutable_converged());
   set_rows(std::span(found.residuals), 1, *response.mutable_residuals());
-  return finish_batch(request,
-                      {response.mutable_positions(), response.mutable_normals(), response.mutable_converged(),
-                       response.mutable_residuals()},
-                      response);
+  return absl::OkStatus();
 }
 
-absl::Status SurfaceService::contains(const grpc::ServerContext& context, const v1::ContainsRequest& request,
-                                      v1::ContainsResponse& response) {
+absl::Status SurfaceService::contains(Call& call, const v1::ContainsRequest& request, v1::ContainsResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const PointArray points,
                             PointArray::read(request.points(), limits_.max_points_per_message, kPoints));
-  ISOFIELD_RETURN_IF_ERROR(check_batch(request, points.size(), 1));
+  ISOFIELD_RETURN_IF_ERROR(check_answer_rows(request, points.size(), 1));
   engine::IsoLevel level{.law = leased.scene->tape().law};
   ISOFIELD_ASSIGN_OR_RETURN(level.iso, read_iso(request, level.law));
+  ISOFIELD_RETURN_IF_ERROR(call.admit(points.size()));
   std::vector<float> values(points.size());
   ISOFIELD_RETURN_IF_ERROR(engine_.fields().evaluate(*leased.scene, points.xyz(), engine::Quantity::kValue, values,
-                                                     [&] { return context.IsCancelled(); }));
+                                                     call.cancelled()));
   std::vector<std::uint8_t> inside(values.size());
   std::transform(values.begin(), values.end(), inside.begin(), [&](float f) { return level.excess(f) > 0 ? 1 : 0; });
   set_rows(std::span<const std::uint8_t>(inside), 1, *response.mutable_inside());
-  return finish_batch(request, {response.mutable_inside()}, response);
+  return absl::OkStatus();
 }
 
-absl::Status SurfaceService::slice(const grpc::ServerContext& context, const v1::SliceRequest& request,
-                                   v1::SliceResponse& response) {
+absl::Status SurfaceService::slice(Call& call, const v1::SliceRequest& request, v1::SliceResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::Plane plane,
                             read_plane(request, leased.scene->tape(), limits_.max_points_per_message));
   ISOFIELD_RETURN_IF_ERROR(check_levels(request));
-  const AnswerLimit limit(request.max_answer_bytes());
+  const std::uint64_t samples = std::uint64_t{plane.counts[0]} * plane.counts[1];
   ISOFIELD_RETURN_IF_ERROR(
-      limit.admit(std::uint64_t{plane.counts[0]} * plane.counts[1] * sizeof(float), kSmallerPlane));
+      AnswerLimit(request.max_answer_bytes()).admit(samples * sizeof(float), kSmallerPlane));
   std::vector<double> levels(request.levels().begin(), request.levels().end());
   if (levels.empty()) {
     ISOFIELD_ASSIGN_OR_RETURN(const double surface, read_iso(std::optional<double>(), leased.scene->tape().law));
     levels.push_back(surface);
   }
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::Slice slice, engine::slice(engine_.fields(), *leased.scene, plane, levels,
-                                                                     [&] { return context.IsCancelled(); }));
+  ISOFIELD_RETURN_IF_ERROR(call.admit(samples));
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::Slice slice,
+                            engine::slice(engine_.fields(), *leased.scene, plane, levels, call.cancelled()));
   set_rows(std::span(slice.values), plane.counts[0], *response.mutable_values());
   for (std::size_t i = 0; i < levels.size(); ++i) {
     v1::LevelCurves& curves = *response.add_curves();
@@ -216,27 +191,7 @@ absl::Status SurfaceService::slice(const grpc::ServerContext& context, const v1:
   set_vector(plane.v, *response.mutable_v());
   set_vector(plane.origin, *response.mutable_origin());
   for (const double spacing : plane.spacing) response.add_spacing(spacing);
-  return limit.admit(response.ByteSizeLong(), kSmallerPlane);
-}
-
-grpc::Status SurfaceService::CastRays(grpc::ServerContext* context, const v1::CastRaysRequest* request,
-                                      v1::CastRaysResponse* response) {
-  return to_grpc(cast(*context, *request, *response));
-}
-
-grpc::Status SurfaceService::ProjectPoints(grpc::ServerContext* context, const v1::ProjectPointsRequest* request,
-                                           v1::ProjectPointsResponse* response) {
-  return to_grpc(project(*context, *request, *response));
-}
-
-grpc::Status SurfaceService::Contains(grpc::ServerContext* context, const v1::ContainsRequest* request,
-                                      v1::ContainsResponse* response) {
-  return to_grpc(contains(*context, *request, *response));
-}
-
-grpc::Status SurfaceService::Slice(grpc::ServerContext* context, const v1::SliceRequest* request,
-                                   v1::SliceResponse* response) {
-  return to_grpc(slice(*context, *request, *response));
+  return absl::OkStatus();
 }
 
 }  // namespace isofield::rpc

@@ -2,9 +2,12 @@
 
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_join.h>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
 
 #include <bit>
 #include <cmath>
+#include <vector>
 
 #include "base/status_macros.h"
 #include "rpc/answer_limit.h"
@@ -183,6 +186,16 @@ void write_as_numbers(v1::Tensor& tensor) {
       return widen<std::uint8_t>(tensor);
     default:
       return widen<float>(tensor);
+  }
+}
+
+void write_tensors_as_numbers(google::protobuf::Message& answer) {
+  const google::protobuf::Reflection& reflection = *answer.GetReflection();
+  std::vector<const google::protobuf::FieldDescriptor*> fields;
+  reflection.ListFields(answer, &fields);
+  for (const google::protobuf::FieldDescriptor* field : fields) {
+    if (field->message_type() != v1::Tensor::descriptor() || field->is_repeated()) continue;
+    write_as_numbers(static_cast<v1::Tensor&>(*reflection.MutableMessage(&answer, field)));
   }
 }
 

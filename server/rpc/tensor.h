@@ -78,6 +78,8 @@ std::span<float> make_float_tensor(std::initializer_list<std::uint64_t> shape, v
 
 // Turns a tensor's bytes into plain numbers of the same values.
 void write_as_numbers(v1::Tensor& tensor);
+// The same for all tensors of an answer.
+void write_tensors_as_numbers(google::protobuf::Message& answer);
 
 // Fills a tensor with rows of `columns` numbers each.
 void set_rows(std::span<const float> numbers, std::uint64_t columns, v1::Tensor& tensor);

@@ -172,6 +172,8 @@ TEST(Lifecycle, HelpListsEveryOptionWithItsDefault) {
                   {"--max-mesh-cells", "33554432"},
                   {"--max-queued-requests", "1024"},
                   {"--max-queued-points", "8388608"},
+                  {"--max-running-requests", "1024"},
+                  {"--max-running-points", "68719476736"},
                   {"--queue-delay-us", "0"},
                   {"--config", ""},
                   {"--version", ""}};

@@ -141,7 +141,7 @@ TEST(Services, LimitsAreThoseOfTheFlags) {
   Daemon daemon({"--max-nodes",         "11",    "--max-primitives",         "12",   "--max-scenes",          "13",
                  "--max-message-bytes", "70000", "--max-points-per-message", "14",   "--max-grid-points",     "15",
                  "--max-operators",     "16",    "--max-mesh-cells",         "6400", "--max-queued-requests", "17",
-                 "--max-queued-points", "18"});
+                 "--max-queued-points", "18",    "--max-running-requests",   "19",   "--max-running-points",  "20"});
   Peer peer(daemon.address());
   const v1::Limits limits = peer.info().limits();
   EXPECT_EQ(limits.max_nodes(), 11u);
@@ -153,6 +153,8 @@ TEST(Services, LimitsAreThoseOfTheFlags) {
   EXPECT_EQ(limits.max_mesh_cells(), 6400u);
   EXPECT_EQ(limits.max_queued_requests(), 17u);
   EXPECT_EQ(limits.max_queued_points(), 18u);
+  EXPECT_EQ(limits.max_running_requests(), 19u);
+  EXPECT_EQ(limits.max_running_points(), 20u);
   EXPECT_EQ(limits.max_operators(), 16u);
 }
 

@@ -68,15 +68,17 @@ TEST(AnswerLimits, PartsAreWholeRowsInOrder) {
     EXPECT_LE(part.size_bytes(), kPartBytes);
     joined.insert(joined.end(), part.begin(), part.end());
     ++parts;
-    return true;
-  }));
+    return absl::OkStatus();
+  }).ok());
   EXPECT_EQ(joined, numbers);
   EXPECT_EQ(parts, 3u);
-  EXPECT_TRUE(in_parts(std::span<const std::uint32_t>(), 3, [](std::span<const std::uint32_t>) { return false; }));
+  const auto fail = [](std::span<const std::uint32_t>) { return absl::CancelledError("gone"); };
+  EXPECT_TRUE(in_parts(std::span<const std::uint32_t>(), 3, fail).ok());
   std::size_t calls = 0;
-  EXPECT_FALSE(in_parts(std::span<const std::uint32_t>(numbers), 3, [&](std::span<const std::uint32_t>) {
-    return ++calls < 2;
-  }));
+  const absl::Status status = in_parts(std::span<const std::uint32_t>(numbers), 3, [&](auto) {
+    return ++calls < 2 ? absl::OkStatus() : absl::CancelledError("gone");
+  });
+  EXPECT_EQ(status.message(), "gone");
   EXPECT_EQ(calls, 2u);
 }
 

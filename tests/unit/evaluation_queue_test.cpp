@@ -1,4 +1,4 @@
-// What joins, what goes first, and what is refused; on no device, and without time.
+// What joins, and what goes first; on no device, and without time.
 #include "engine/points/evaluation_queue.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class Queue : public testing::Test {
     std::thread thread;
   };
 
-  explicit Queue(const QueueLimits& limits = {})
+  explicit Queue(const QueueOptions& options = {})
       : held_(turns_.take({})),
         queue_(
             turns_,
@@ -42,7 +42,7 @@ class Queue : public testing::Test {
                    const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
               return run(scene, xyz, quantity, out, cancelled, std::move(submission));
             },
-            limits, [this] { return now_; }) {}
+            options, [this] { return now_; }) {}
   ~Queue() override { release(); }
 
   absl::Status run(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
@@ -214,37 +214,10 @@ TEST_F(Queue, AFailureIsThatOfAllThatWentTogether) {
   EXPECT_EQ(requests_[1]->status, outcome_);
 }
 
-class BoundedQueue : public Queue {
- protected:
-  BoundedQueue() : Queue({.max_requests = 3, .max_points = 100}) {}
-
-  void expect_refused(Request& r) {
-    r.status = queue_.evaluate(r.batch);
-    EXPECT_EQ(r.status.code(), absl::StatusCode::kResourceExhausted);
-    EXPECT_GE(retry_after_ms(r.status).value_or(0), 1);
-  }
-};
-
-TEST_F(BoundedQueue, RefusesMoreRequestsAtOnce) {
-  for (int i = 0; i < 3; ++i) wait_with(request(1));
-  expect_refused(request(2));
-  // Those that are bounded elsewhere, and those that ask for nothing, are not refused.
-  wait_with(request(3, 1, {.is_admitted = true}));
+TEST_F(Queue, WhatAsksForNothingIsDoneAtOnce) {
   Request& nothing = request(4, 0);
   EXPECT_TRUE(queue_.evaluate(nothing.batch).ok());
-  release();
-  for (const int i : {0, 1, 2, 4}) EXPECT_TRUE(requests_[i]->status.ok());
-  // There is room again.
-  Request& again = request(5);
-  EXPECT_TRUE(queue_.evaluate(again.batch).ok());
-}
-
-TEST_F(BoundedQueue, RefusesMorePointsAtOnceButNeverWhereNothingWaits) {
-  wait_with(request(1, 1000));
-  expect_refused(request(2));
-  release();
-  EXPECT_TRUE(requests_[0]->status.ok());
-  EXPECT_FALSE(retry_after_ms(absl::ResourceExhaustedError("of another kind")));
+  EXPECT_TRUE(submissions_.empty());
 }
 
 class DelayedQueue : public Queue {

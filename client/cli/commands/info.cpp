@@ -33,8 +33,9 @@ absl::Status info(const Context& context) {
   absl::PrintF("         %u bytes and %u points a message; %u points a grid; %u cells a mesh\n",
                limits.max_message_bytes(), limits.max_points_per_message(), limits.max_grid_points(),
                limits.max_mesh_cells());
-  absl::PrintF("         %u requests and %u points that wait to be evaluated\n", limits.max_queued_requests(),
-               limits.max_queued_points());
+  absl::PrintF("         %u requests and %u points that wait to be evaluated; %u and %u of other kinds at work\n",
+               limits.max_queued_requests(), limits.max_queued_points(), limits.max_running_requests(),
+               limits.max_running_points());
   return absl::OkStatus();
 }
 

@@ -1,22 +1,12 @@
 #include "engine/points/evaluation_queue.h"
 
-#include <absl/strings/cord.h>
-#include <absl/strings/numbers.h>
-#include <absl/strings/str_cat.h>
-
 #include <algorithm>
-#include <cmath>
 #include <future>
 
 #include "base/status_macros.h"
 
 namespace isofield::engine {
 namespace {
-
-// What a submission still counts after each further one.
-constexpr double kMemory = 0.9;
-
-constexpr char kRetryPayload[] = "isofield/retry-after-ms";
 
 std::size_t points_of(const PointBatch& batch) {
   return batch.xyz.size() / 3;
@@ -32,13 +22,6 @@ absl::Status deadline_exceeded() {
 
 }  // namespace
 
-std::optional<std::int64_t> retry_after_ms(const absl::Status& status) {
-  const auto payload = status.GetPayload(kRetryPayload);
-  std::int64_t ms = 0;
-  if (!payload || !absl::SimpleAtoi(std::string(*payload), &ms)) return std::nullopt;
-  return ms;
-}
-
 EvaluationQueue::~EvaluationQueue() {
   {
     const std::lock_guard lock(mutex_);
@@ -50,12 +33,8 @@ EvaluationQueue::~EvaluationQueue() {
 
 void EvaluationQueue::submit(PointBatch batch, Done done) {
   if (batch.xyz.empty()) return done(absl::OkStatus());
-  if (const absl::Status s = admit(batch); !s.ok()) return done(s);
+  if (points_of(batch) > kSmallPoints) return done(evaluate_large(batch));
   auto self = std::make_unique<Waiting>(Waiting{.batch = std::move(batch), .done = std::move(done), .status = {}});
-  if (points_of(self->batch) > kSmallPoints) {
-    self->status = evaluate_large(self->batch);
-    return answer(*self);
-  }
   Batches answered;
   {
     std::unique_lock lock(mutex_);
@@ -65,7 +44,7 @@ void EvaluationQueue::submit(PointBatch batch, Done done) {
     if (is_led_) return;
     answered = run_next(lock);
   }
-  for (const auto& a : answered) answer(*a);
+  for (const auto& a : answered) a->done(a->status);
 }
 
 absl::Status EvaluationQueue::evaluate(const PointBatch& batch) {
@@ -83,43 +62,14 @@ void EvaluationQueue::dispatch() {
     if (is_over_) return;
     const Batches answered = run_next(lock);
     lock.unlock();
-    for (const auto& a : answered) answer(*a);
+    for (const auto& a : answered) a->done(a->status);
     lock.lock();
   }
-}
-
-void EvaluationQueue::answer(Waiting& batch) {
-  {
-    const std::lock_guard lock(mutex_);
-    --requests_;
-    points_ -= points_of(batch.batch);
-  }
-  batch.done(batch.status);
 }
 
 std::size_t EvaluationQueue::waiting() const {
   const std::lock_guard lock(mutex_);
   return waiting_.size();
-}
-
-absl::Status EvaluationQueue::admit(const PointBatch& batch) {
-  const std::lock_guard lock(mutex_);
-  const bool fits = requests_ < limits_.max_requests && points_ + points_of(batch) <= limits_.max_points;
-  if (!fits && !batch.is_admitted && requests_ > 0) return refusal();
-  ++requests_;
-  points_ += points_of(batch);
-  return absl::OkStatus();
-}
-
-absl::Status EvaluationQueue::refusal() const {
-  // When what is there is done, as far as one can tell.
-  const double seconds = recent_seconds_ / std::max(recent_points_, 1.0) * static_cast<double>(points_);
-  const double ms = std::clamp(std::ceil(1e3 * seconds), 1.0, 10'000.0);
-  absl::Status status = absl::ResourceExhaustedError(absl::StrCat(
-      requests_, " requests with ", points_, " points wait or run; ", limits_.max_requests, " with ",
-      limits_.max_points, " are admitted (--max-queued-requests, --max-queued-points): try again in ", ms, " ms"));
-  status.SetPayload(kRetryPayload, absl::Cord(absl::StrCat(ms)));
-  return status;
 }
 
 absl::Status EvaluationQueue::evaluate_large(const PointBatch& batch) {
@@ -180,8 +130,8 @@ gpu::Urgency EvaluationQueue::most_urgent() const {
 }
 
 void EvaluationQueue::wait_for_more(std::unique_lock<std::mutex>& lock) {
-  if (limits_.delay.count() == 0) return;
-  more_came_.wait_for(lock, limits_.delay, [&] { return waiting_points_ >= kJoinedPoints; });
+  if (options_.delay.count() == 0) return;
+  more_came_.wait_for(lock, options_.delay, [&] { return waiting_points_ >= kJoinedPoints; });
 }
 
 // The first one, and those that can go with it in the order of their urgency.
@@ -232,14 +182,7 @@ absl::Status EvaluationQueue::run(const PointBatch& first, std::span<const float
                                   const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn,
                                   RequestTimes& times) {
   const TimedScope timed(times);
-  const gpu::Deadline start = now_();
-  const absl::Status status =
-      run_(*first.scene, xyz, first.quantity, out, cancelled, {urgency_of(first), std::move(turn)});
-  const double seconds = std::chrono::duration<double>(now_() - start).count();
-  const std::lock_guard lock(mutex_);
-  recent_seconds_ = kMemory * recent_seconds_ + seconds;
-  recent_points_ = kMemory * recent_points_ + static_cast<double>(xyz.size() / 3);
-  return status;
+  return run_(*first.scene, xyz, first.quantity, out, cancelled, {urgency_of(first), std::move(turn)});
 }
 
 }  // namespace isofield::engine

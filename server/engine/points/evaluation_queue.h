@@ -9,7 +9,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <thread>
 #include <vector>
@@ -20,11 +19,7 @@
 
 namespace isofield::engine {
 
-struct QueueLimits {
-  // The most requests, and points of these, that may wait or run. Beyond either limit another request is refused,
-  // unless there is none.
-  std::uint64_t max_requests = 1024;
-  std::uint64_t max_points = 1u << 23;
+struct QueueOptions {
   // How long a submission that could start is held back so that others can join it.
   std::chrono::microseconds delay{0};
 };
@@ -40,12 +35,7 @@ struct PointBatch {
   FieldEvaluator::Cancelled cancelled;
   // If it is not null, it receives how long the batch waited and ran, before the batch is done.
   RequestTimes* times = nullptr;
-  // True for batches whose number another limit already bounds, so that admission never refuses them.
-  bool is_admitted = false;
 };
-
-// After this many milliseconds a refused request may be sent again; of the status of a refusal alone.
-std::optional<std::int64_t> retry_after_ms(const absl::Status& status);
 
 // Small batches that wait when the device becomes free, of one scene and one quantity, go to it together, the most
 // urgent first: higher priority, then earlier deadline, then first come; the last of every kPatience submissions is
@@ -65,8 +55,8 @@ class EvaluationQueue {
                                  const FieldEvaluator::Cancelled&, FieldEvaluator::Submission)>;
   using Clock = std::function<gpu::Deadline()>;
 
-  EvaluationQueue(gpu::Turns& turns, Run run, const QueueLimits& limits, Clock now = std::chrono::system_clock::now)
-      : turns_(turns), run_(std::move(run)), limits_(limits), now_(std::move(now)), dispatcher_([this] {
+  EvaluationQueue(gpu::Turns& turns, Run run, const QueueOptions& options, Clock now = std::chrono::system_clock::now)
+      : turns_(turns), run_(std::move(run)), options_(options), now_(std::move(now)), dispatcher_([this] {
           dispatch();
         }) {}
   ~EvaluationQueue();
@@ -75,9 +65,8 @@ class EvaluationQueue {
   // submission.
   using Done = std::function<void(const absl::Status&)>;
 
-  // RESOURCE_EXHAUSTED: the queue is full; at once, and with retry_after_ms. DEADLINE_EXCEEDED, CANCELLED: before it
-  // was run, or between pieces. Others: those of the evaluation, which all in a submission share. A large batch is run
-  // before this returns.
+  // DEADLINE_EXCEEDED, CANCELLED: before it was run, or between pieces. Others: those of the evaluation, which all in a
+  // submission share. A large batch is run before this returns.
   void submit(PointBatch batch, Done done);
   // The same, and waits for the outcome.
   absl::Status evaluate(const PointBatch& batch);
@@ -94,8 +83,6 @@ class EvaluationQueue {
   };
   using Batches = std::vector<std::unique_ptr<Waiting>>;
 
-  absl::Status admit(const PointBatch& batch);
-  void answer(Waiting& batch);
   absl::Status evaluate_large(const PointBatch& batch);
   void dispatch();
   Batches run_next(std::unique_lock<std::mutex>& lock);
@@ -103,14 +90,13 @@ class EvaluationQueue {
   void wait_for_more(std::unique_lock<std::mutex>& lock);
   Batches take_next();
   absl::Status run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn, RequestTimes& times);
-  absl::Status refusal() const;
   // run_, timed.
   absl::Status run(const PointBatch& first, std::span<const float> xyz, std::span<float> out,
                    const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn, RequestTimes& times);
 
   gpu::Turns& turns_;
   const Run run_;
-  const QueueLimits limits_;
+  const QueueOptions options_;
   const Clock now_;
 
   mutable std::mutex mutex_;
@@ -120,9 +106,7 @@ class EvaluationQueue {
   bool is_led_ = false;  // a thread is at the next submission
   bool is_over_ = false;
   std::uint64_t picks_ = 0;
-  std::uint64_t requests_ = 0, points_ = 0;        // admitted and not yet answered
-  double recent_seconds_ = 0, recent_points_ = 0;  // of submissions, the older the less
-  std::thread dispatcher_;                         // last: it uses the others
+  std::thread dispatcher_;  // last: it uses the others
 };
 
 }  // namespace isofield::engine

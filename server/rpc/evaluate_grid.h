@@ -1,0 +1,55 @@
+// EvaluateGrid: reads the lattice of a request, and evaluates and sends its points some layers at a time.
+#pragma once
+
+#include <absl/status/statusor.h>
+#include <grpcpp/grpcpp.h>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "blobtree/cull/lattice.h"
+#include "engine/points/field_evaluator.h"
+#include "isofield/v1/field_service.pb.h"
+#include "rpc/handler.h"
+#include "rpc/limits.h"
+
+namespace isofield::rpc {
+
+// The points are the lattice's cells. INVALID_ARGUMENT, RESOURCE_EXHAUSTED: as field_service.proto says.
+absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& request, const Limits& limits);
+
+std::uint64_t points_of_lattice(const blobtree::Lattice& lattice);
+
+// For one call and one thread. All that it is given must outlive it.
+class GridEvaluation {
+ public:
+  using Writer = grpc::ServerWriter<v1::EvaluateGridResponse>;
+
+  // `most`: points that a message may hold.
+  GridEvaluation(engine::FieldEvaluator& fields, const engine::ResidentScene& scene, const blobtree::Lattice& lattice,
+                 engine::Quantity quantity, std::uint64_t most, const Call& call, Writer& writer);
+
+  // CANCELLED: the client is gone. Other errors are those of the evaluator.
+  absl::Status run();
+
+ private:
+  // Layers `first` and on, in one message that they are evaluated into.
+  absl::Status send_at_once(std::uint32_t first, std::uint32_t layers);
+  // The same in several messages.
+  absl::Status send_in_parts(std::uint32_t first, std::uint32_t layers);
+
+  engine::FieldEvaluator& fields_;
+  const engine::ResidentScene& scene_;
+  const blobtree::Lattice& lattice_;
+  const engine::Quantity quantity_;
+  const std::uint32_t width_;  // numbers of a point
+  const std::uint64_t layer_;  // points of a layer
+  const std::uint64_t most_;
+  const std::function<bool()> cancelled_;
+  Writer& writer_;
+  v1::EvaluateGridResponse response_;
+  std::vector<float> several_;  // layers that take more than one message
+};
+
+}  // namespace isofield::rpc
