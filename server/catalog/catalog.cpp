@@ -1,66 +1,108 @@
 #include "catalog/catalog.h"
 
 #include <absl/strings/str_cat.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/util/delimited_message_util.h>
+#include <google/protobuf/wrappers.pb.h>
+
+#include <utility>
 
 #include "base/quoted.h"
-#include "catalog/name.h"
+#include "base/status_macros.h"
+#include "blobtree/scene/operator_reader.h"
 
 namespace isofield::catalog {
-absl::Status Catalog::not_found(const std::string& name) const {
-  const std::string there = list_names(scenes_);
-  return absl::NotFoundError(absl::StrCat("no scene is named ", base::quoted(name), "; ",
-                                          there.empty() ? "the catalog is empty" : absl::StrCat("there are ", there)));
+namespace {
+
+using google::protobuf::util::ParseDelimitedFromZeroCopyStream;
+using google::protobuf::util::SerializeDelimitedToZeroCopyStream;
+
+// A scene with its operators. Its serialized form is a Scene, then for each operator its name as a StringValue and an
+// Operator; each message has its length before it.
+class SceneValue final : public Value {
+ public:
+  SceneValue(v1::Scene scene, std::shared_ptr<const SceneOperators> operators)
+      : scene_(std::make_shared<const v1::Scene>(std::move(scene))), operators_(std::move(operators)) {}
+
+  std::string serialized() const override {
+    std::string bytes;
+    google::protobuf::io::StringOutputStream out(&bytes);
+    SerializeDelimitedToZeroCopyStream(*scene_, &out);
+    for (const auto& [name, message] : operators_->messages) {
+      google::protobuf::StringValue operator_name;
+      operator_name.set_value(name);
+      SerializeDelimitedToZeroCopyStream(operator_name, &out);
+      SerializeDelimitedToZeroCopyStream(*message, &out);
+    }
+    return bytes;
+  }
+  std::uint64_t bytes() const override { return 0; }  // the number of scenes is limited, not their bytes
+
+  const std::shared_ptr<const v1::Scene>& scene() const { return scene_; }
+  const std::shared_ptr<const SceneOperators>& operators() const { return operators_; }
+
+ private:
+  const std::shared_ptr<const v1::Scene> scene_;
+  const std::shared_ptr<const SceneOperators> operators_;
+};
+
+Entry entry_of(const Record& record) {
+  const auto& value = static_cast<const SceneValue&>(*record.value);
+  return {record.name, record.version, value.scene(), value.operators()};
 }
 
+Shelf::Words words() {
+  const auto not_found = [](const std::string& name, const std::string& there) {
+    return absl::StrCat("no scene is named ", base::quoted(name), "; ",
+                        there.empty() ? "the catalog is empty" : absl::StrCat("there are ", there));
+  };
+  return {.one = "scene", .many = "scenes", .not_found = not_found};
+}
+
+}  // namespace
+
+Catalog::Catalog(Store& store, std::uint64_t max_scenes)
+    : shelf_(store, Kind::kScene, {.entries = max_scenes}, words()) {}
+
 absl::StatusOr<Catalog::Put> Catalog::put(const std::string& name, v1::Scene scene,
-                                          std::shared_ptr<const blobtree::OperatorTable> operators,
+                                          std::shared_ptr<const SceneOperators> operators,
                                           const Condition& condition) {
-  if (absl::Status s = check_name(name); !s.ok()) return s;
-  auto stored = std::make_shared<const v1::Scene>(std::move(scene));
-  const std::lock_guard lock(mutex_);
-  const auto it = scenes_.find(name);
-  if (condition.must_be_absent && it != scenes_.end()) {
-    return absl::AlreadyExistsError(absl::StrCat("scene '", name, "' exists already, at version ", it->second.version));
-  }
-  if (condition.version != 0) {
-    if (it == scenes_.end()) return not_found(name);
-    if (it->second.version != condition.version) {
-      return absl::AbortedError(absl::StrCat("scene '", name, "' is at version ", it->second.version, ", not at ",
-                                             condition.version, "; read it again"));
-    }
-  }
-  if (it == scenes_.end() && scenes_.size() >= max_scenes_) {
-    return absl::ResourceExhaustedError(
-        absl::StrCat("the catalog holds ", scenes_.size(), " scenes, all that are admitted; delete one first"));
-  }
-  Put put;
-  put.replaced_version = it == scenes_.end() ? 0 : it->second.version;
-  put.entry = {name, ++last_version_, std::move(stored), std::move(operators)};
-  scenes_[name] = put.entry;
-  return put;
+  auto value = std::make_shared<const SceneValue>(std::move(scene), std::move(operators));
+  ISOFIELD_ASSIGN_OR_RETURN(const Shelf::Put put, shelf_.put(name, std::move(value), condition));
+  return Put{entry_of(put.record), put.replaced_version};
 }
 
 absl::StatusOr<Entry> Catalog::get(const std::string& name) const {
-  const std::lock_guard lock(mutex_);
-  const auto it = scenes_.find(name);
-  if (it == scenes_.end()) return not_found(name);
-  return it->second;
+  ISOFIELD_ASSIGN_OR_RETURN(const Record record, shelf_.get(name));
+  return entry_of(record);
 }
 
-std::vector<Entry> Catalog::list(const std::string& after) const {
-  const std::lock_guard lock(mutex_);
+absl::StatusOr<std::vector<Entry>> Catalog::list(const std::string& after, std::size_t most) const {
+  ISOFIELD_ASSIGN_OR_RETURN(const std::vector<Record> records, shelf_.list(after, most));
   std::vector<Entry> entries;
-  for (auto it = scenes_.upper_bound(after); it != scenes_.end(); ++it) entries.push_back(it->second);
+  for (const Record& record : records) entries.push_back(entry_of(record));
   return entries;
 }
 
 absl::StatusOr<std::uint64_t> Catalog::remove(const std::string& name) {
-  const std::lock_guard lock(mutex_);
-  const auto it = scenes_.find(name);
-  if (it == scenes_.end()) return not_found(name);
-  const std::uint64_t version = it->second.version;
-  scenes_.erase(it);
-  return version;
+  ISOFIELD_ASSIGN_OR_RETURN(const Record removed, shelf_.remove(name));
+  return removed.version;
+}
+
+absl::StatusOr<std::shared_ptr<const Value>> Catalog::parse(const std::string& serialized) {
+  google::protobuf::io::ArrayInputStream in(serialized.data(), static_cast<int>(serialized.size()));
+  v1::Scene scene;
+  bool is_end = false;
+  if (!ParseDelimitedFromZeroCopyStream(&scene, &in, &is_end)) return absl::DataLossError("a kept scene is broken");
+  auto operators = std::make_shared<SceneOperators>();
+  for (google::protobuf::StringValue name; ParseDelimitedFromZeroCopyStream(&name, &in, &is_end); name.Clear()) {
+    auto message = std::make_shared<v1::Operator>();
+    if (!ParseDelimitedFromZeroCopyStream(message.get(), &in, nullptr)) break;
+    ISOFIELD_ASSIGN_OR_RETURN(operators->table[name.value()], blobtree::read_operator(*message));
+    operators->messages[name.value()] = std::move(message);
+  }
+  if (!is_end) return absl::DataLossError("the operators of a kept scene are broken");
+  return std::make_shared<const SceneValue>(std::move(scene), std::move(operators));
 }
 
 }  // namespace isofield::catalog

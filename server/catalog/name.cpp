@@ -1,6 +1,7 @@
 #include "catalog/name.h"
 
 #include <absl/strings/ascii.h>
+#include <absl/strings/str_cat.h>
 
 #include <algorithm>
 

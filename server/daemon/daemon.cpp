@@ -20,6 +20,7 @@
 
 #include "base/status_macros.h"
 #include "catalog/catalog.h"
+#include "catalog/memory_store.h"
 #include "catalog/operator_catalog.h"
 #include "daemon/region_socket.h"
 #include "daemon/socket.h"
@@ -178,8 +179,9 @@ absl::Status run(const Config& config, const std::string& version) {
 
   rpc::Limits limits = config.limits;
   limits.max_mesh_cells = std::min(limits.max_mesh_cells, engine->mesher().max_cells());
-  catalog::Catalog catalog(limits.max_scenes);
-  catalog::OperatorCatalog operators(limits.max_operators);
+  catalog::MemoryStore store;
+  catalog::Catalog catalog(store, limits.max_scenes);
+  catalog::OperatorCatalog operators(store, limits.max_operators);
   scenes::ResidentScenes residents(*engine);
   const scenes::SceneSource scenes(catalog, operators, residents, *engine);
   std::optional<engine::CompileAhead> ahead;

@@ -1,5 +1,6 @@
 #include "rpc/info_service.h"
 
+#include "base/status_macros.h"
 #include "blobtree/tape/tape.h"
 
 namespace isofield::rpc {
@@ -13,7 +14,8 @@ absl::Status InfoService::get(v1::GetInfoResponse& response) const {
   response.set_resident_scenes(residents.scenes);
   response.set_scene_bytes(residents.bytes);
   response.set_device_bytes(engine_.device().allocated_bytes());
-  response.set_operators(operators_.size());
+  ISOFIELD_ASSIGN_OR_RETURN(const std::uint64_t operators, operators_.size());
+  response.set_operators(operators);
   response.set_uptime_seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
   return absl::OkStatus();
 }

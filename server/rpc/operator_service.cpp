@@ -6,6 +6,7 @@
 #include "base/status_macros.h"
 #include "blobtree/scene/operator_reader.h"
 #include "catalog/built_in_operators.h"
+#include "catalog/pages.h"
 #include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/operator_arguments.h"
@@ -75,14 +76,14 @@ absl::Status OperatorService::list(const v1::ListOperatorsRequest& request, v1::
     fill_summary(name, 0, message, blobtree::unread_operator(message), summary);
     add(std::move(summary));  // these few have room
   }
-  for (const catalog::OperatorEntry& entry : operators_.list(request.after())) {
+  const auto add_custom = [&](const catalog::OperatorEntry& entry) -> absl::StatusOr<bool> {
     v1::OperatorSummary summary;
     fill_summary(entry, engine_.volumes(), summary);
-    if (add(std::move(summary))) continue;
-    response.set_has_more(true);
-    break;
-  }
-  return absl::OkStatus();
+    const bool has_room = add(std::move(summary));
+    response.set_has_more(!has_room);
+    return has_room;
+  };
+  return catalog::for_each_after(operators_, request.after(), add_custom);
 }
 
 absl::Status OperatorService::remove(const v1::DeleteOperatorRequest& request) {

@@ -1,6 +1,7 @@
 #include "rpc/scene_service.h"
 
 #include "base/status_macros.h"
+#include "catalog/pages.h"
 #include "rpc/answer_limit.h"
 #include "rpc/parameter_edits.h"
 
@@ -31,8 +32,8 @@ absl::Status SceneService::put(const v1::PutSceneRequest& request, v1::PutSceneR
   catalog::Condition condition;
   if (request.expect_case() == v1::PutSceneRequest::kAbsent) condition.must_be_absent = request.absent();
   if (request.expect_case() == v1::PutSceneRequest::kVersion) condition.version = request.version();
-  ISOFIELD_ASSIGN_OR_RETURN(auto operators, operators_.table_for(request.scene()));
-  ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease lease, engine_.make_resident(request.scene(), *operators));
+  ISOFIELD_ASSIGN_OR_RETURN(auto operators, operators_.operators_of(request.scene()));
+  ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease lease, engine_.make_resident(request.scene(), operators->table));
   ISOFIELD_ASSIGN_OR_RETURN(
       const scenes::StoredScene stored,
       editor_.put(request.name(), request.scene(), std::move(lease), std::move(operators), condition));
@@ -64,16 +65,17 @@ absl::Status SceneService::get_parts(const v1::GetSceneRequest& request, grpc::S
 
 absl::Status SceneService::list(const v1::ListScenesRequest& request, v1::ListScenesResponse& response) {
   AnswerPage page;
-  for (const catalog::Entry& entry : catalog_.list(request.after())) {
+  const auto add = [&](const catalog::Entry& entry) -> absl::StatusOr<bool> {
     v1::SceneSummary summary;
     ISOFIELD_RETURN_IF_ERROR(summarise(entry, summary));
     if (!page.admit(summary.ByteSizeLong())) {
       response.set_has_more(true);
-      break;
+      return false;
     }
     *response.add_scenes() = std::move(summary);
-  }
-  return absl::OkStatus();
+    return true;
+  };
+  return catalog::for_each_after(catalog_, request.after(), add);
 }
 
 absl::Status SceneService::edit(const v1::EditParametersRequest& request, v1::EditParametersResponse& response) {

@@ -46,7 +46,7 @@ absl::StatusOr<Sample> sample(const FoundScene& found, const std::string& node, 
                               engine::Engine& engine) {
   v1::Scene rooted = *found.scene;
   rooted.set_root(node);
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease scene, engine.make_resident(rooted, *found.operators));
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease scene, engine.make_resident(rooted, found.operators->table));
   const std::array<float, 3> xyz{static_cast<float>(point.x), static_cast<float>(point.y),
                                  static_cast<float>(point.z)};
   std::array<float, 4> out{};

@@ -10,7 +10,7 @@ absl::StatusOr<engine::SceneLease> ResidentScenes::acquire(const catalog::Entry&
     const auto it = kept_.find(entry.version);
     if (it != kept_.end()) return it->second;
   }
-  return engine_.make_resident(*entry.scene, *entry.operators);
+  return engine_.make_resident(*entry.scene, entry.operators->table);
 }
 
 void ResidentScenes::keep(std::uint64_t version, engine::SceneLease scene) {

@@ -5,7 +5,7 @@
 namespace isofield::scenes {
 
 absl::StatusOr<StoredScene> SceneEditor::put(const std::string& name, v1::Scene scene, engine::SceneLease lease,
-                                             std::shared_ptr<const blobtree::OperatorTable> operators,
+                                             std::shared_ptr<const catalog::SceneOperators> operators,
                                              const catalog::Condition& condition) {
   const std::lock_guard lock(residency_mutex_);
   ISOFIELD_ASSIGN_OR_RETURN(catalog::Catalog::Put put,
@@ -13,7 +13,8 @@ absl::StatusOr<StoredScene> SceneEditor::put(const std::string& name, v1::Scene 
   residents_.keep(put.entry.version, lease);
   if (put.replaced_version != 0) {
     residents_.drop(put.replaced_version);
-    if (ahead_) ahead_->edited(put.entry.scene, put.entry.operators, lease);
+    const std::shared_ptr<const blobtree::OperatorTable> table(put.entry.operators, &put.entry.operators->table);
+    if (ahead_) ahead_->edited(put.entry.scene, table, lease);
   }
   return StoredScene{std::move(put.entry), std::move(lease)};
 }
@@ -42,7 +43,7 @@ absl::StatusOr<StoredScene> SceneEditor::try_edit(const std::string& name,
   v1::Scene scene = *entry.scene;
   ISOFIELD_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> nodes, blobtree::apply_edits(edits, scene));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease before, residents_.acquire(entry));
-  ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease lease, engine_.edit(*before, scene, nodes, *entry.operators));
+  ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease lease, engine_.edit(*before, scene, nodes, entry.operators->table));
   // Against the version that was read, so that two editors at once lose nothing.
   catalog::Condition condition;
   condition.version = expected_version != 0 ? expected_version : entry.version;

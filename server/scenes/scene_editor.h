@@ -31,7 +31,7 @@ class SceneEditor {
 
   // Stores a scene. `lease` is its resident form. Errors are those of the catalog.
   absl::StatusOr<StoredScene> put(const std::string& name, v1::Scene scene, engine::SceneLease lease,
-                                  std::shared_ptr<const blobtree::OperatorTable> operators,
+                                  std::shared_ptr<const catalog::SceneOperators> operators,
                                   const catalog::Condition& condition);
   // Edits a scene. With `expected_version` 0 the scene may have any version, and an edit that has lost a race is
   // applied to the scene that has won. ABORTED: the scene has another version, or the edit has lost 17 races in a row.
@@ -48,7 +48,8 @@ class SceneEditor {
   engine::Engine& engine_;
   engine::CompileAhead* const ahead_;
   // Makes the resident scenes follow the catalog step by step. Otherwise, of two puts at once, the first scene could be
-  // kept after the second put has dropped it, and would stay for good.
+  // kept after the second put has dropped it, and would stay for good. It is held while a store writes: puts wait for
+  // one another then, but no evaluation does.
   std::mutex residency_mutex_;
 };
 

@@ -26,8 +26,8 @@ absl::StatusOr<LeasedScene> SceneSource::lease(const v1::SceneRef& ref) const {
       return LeasedScene{std::move(scene), entry.version, entry.scene};
     }
     case v1::SceneRef::kInline: {
-      ISOFIELD_ASSIGN_OR_RETURN(const auto operators, operators_.table_for(ref.inline_()));
-      ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease scene, engine_.make_resident(ref.inline_(), *operators));
+      ISOFIELD_ASSIGN_OR_RETURN(const auto operators, operators_.operators_of(ref.inline_()));
+      ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease scene, engine_.make_resident(ref.inline_(), operators->table));
       const std::shared_ptr<const v1::Scene> unowned(std::shared_ptr<void>(), &ref.inline_());
       return LeasedScene{std::move(scene), 0, unowned};
     }
@@ -43,7 +43,7 @@ absl::StatusOr<FoundScene> SceneSource::find(const v1::SceneRef& ref) const {
       return FoundScene{std::move(entry.scene), std::move(entry.operators)};
     }
     case v1::SceneRef::kInline: {
-      ISOFIELD_ASSIGN_OR_RETURN(auto operators, operators_.table_for(ref.inline_()));
+      ISOFIELD_ASSIGN_OR_RETURN(auto operators, operators_.operators_of(ref.inline_()));
       return FoundScene{std::make_shared<const v1::Scene>(ref.inline_()), std::move(operators)};
     }
     default:

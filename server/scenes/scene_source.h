@@ -25,7 +25,7 @@ std::string node_name(const v1::Scene& scene, std::uint32_t node);
 
 struct FoundScene {
   std::shared_ptr<const v1::Scene> scene;
-  std::shared_ptr<const blobtree::OperatorTable> operators;
+  std::shared_ptr<const catalog::SceneOperators> operators;
 };
 
 // Thread-safe.

@@ -6,6 +6,7 @@
 
 #include "blobtree/scene/operator_reader.h"
 #include "catalog/built_in_operators.h"
+#include "catalog/memory_store.h"
 
 namespace isofield::catalog {
 namespace {
@@ -33,13 +34,14 @@ v1::Scene scene_with(const std::vector<std::string>& operators) {
 }
 
 TEST(OperatorCatalog, KeepsListsAndRemoves) {
-  OperatorCatalog catalog(10);
+  MemoryStore store;
+  OperatorCatalog catalog(store, 10);
   ASSERT_TRUE(put(catalog, "b", 0.5).ok());
   const auto first = put(catalog, "a/x-1.y_z", 0.25);
   ASSERT_TRUE(first.ok()) << first.status();
   EXPECT_EQ(first->version, 2u);
-  EXPECT_EQ(catalog.size(), 2u);
-  EXPECT_EQ(catalog.list()[0].name, "a/x-1.y_z");
+  EXPECT_EQ(catalog.size().value(), 2u);
+  EXPECT_EQ(catalog.list("", 10)->front().name, "a/x-1.y_z");
   EXPECT_EQ(catalog.get("b")->message->gradient().silhouette().k(), 0.5);
   const auto second = put(catalog, "b", 0.75);
   EXPECT_EQ(second->version, 3u);
@@ -50,7 +52,8 @@ TEST(OperatorCatalog, KeepsListsAndRemoves) {
 }
 
 TEST(OperatorCatalog, EntriesOutliveTheirNames) {
-  OperatorCatalog catalog(10);
+  MemoryStore store;
+  OperatorCatalog catalog(store, 10);
   ASSERT_TRUE(put(catalog, "a", 0.25).ok());
   const OperatorEntry entry = *catalog.get("a");
   ASSERT_TRUE(put(catalog, "a", 0.5).ok());
@@ -60,7 +63,8 @@ TEST(OperatorCatalog, EntriesOutliveTheirNames) {
 }
 
 TEST(OperatorCatalog, RefusesNames) {
-  OperatorCatalog catalog(10);
+  MemoryStore store;
+  OperatorCatalog catalog(store, 10);
   for (const std::string& name : {std::string(), std::string("a b"), std::string(129, 'x')}) {
     const absl::Status status = put(catalog, name, 0.5).status();
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
@@ -75,7 +79,8 @@ TEST(OperatorCatalog, RefusesNames) {
 }
 
 TEST(OperatorCatalog, RefusesMoreThanAdmitted) {
-  OperatorCatalog catalog(2);
+  MemoryStore store;
+  OperatorCatalog catalog(store, 2);
   ASSERT_TRUE(put(catalog, "a", 0.5).ok());
   ASSERT_TRUE(put(catalog, "b", 0.5).ok());
   EXPECT_EQ(put(catalog, "c", 0.5).status().code(), absl::StatusCode::kResourceExhausted);
@@ -85,27 +90,44 @@ TEST(OperatorCatalog, RefusesMoreThanAdmitted) {
 }
 
 TEST(OperatorCatalog, NotFoundNamesWhatThereIs) {
-  OperatorCatalog catalog(10);
+  MemoryStore store;
+  OperatorCatalog catalog(store, 10);
   EXPECT_TRUE(absl::StrContains(catalog.get("a").status().message(), "gradient"));
   ASSERT_TRUE(put(catalog, "fold", 0.5).ok());
   EXPECT_TRUE(absl::StrContains(catalog.get("a").status().message(), "'fold'"));
   EXPECT_TRUE(absl::StrContains(catalog.remove("gradient").message(), "built-in"));
 }
 
-TEST(OperatorCatalog, TablesHoldWhatTheNamesMeanNow) {
-  OperatorCatalog catalog(10);
+TEST(OperatorCatalog, OperatorsOfASceneAreWhatTheNamesMeanNow) {
+  MemoryStore store;
+  OperatorCatalog catalog(store, 10);
   ASSERT_TRUE(put(catalog, "a", 0.25).ok());
   ASSERT_TRUE(put(catalog, "b", 0.5).ok());
-  EXPECT_TRUE((*catalog.table_for(scene_with({})))->empty());
-  const auto table = *catalog.table_for(scene_with({"a", "a"}));
+  EXPECT_TRUE((*catalog.operators_of(scene_with({})))->table.empty());
+  const auto operators = *catalog.operators_of(scene_with({"a", "a"}));
   ASSERT_TRUE(put(catalog, "a", 0.75).ok());
-  ASSERT_EQ(table->size(), 1u);
-  EXPECT_EQ(table->at("a")->as<operators::Gradient>()->silhouette.k, 0.25);
-  const absl::Status status = catalog.table_for(scene_with({"b", "c"})).status();
+  ASSERT_EQ(operators->table.size(), 1u);
+  EXPECT_EQ(operators->table.at("a")->as<operators::Gradient>()->silhouette.k, 0.25);
+  EXPECT_EQ(operators->messages.at("a")->gradient().silhouette().k(), 0.25);
+  const absl::Status status = catalog.operators_of(scene_with({"b", "c"})).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
   for (const char* part : {"nodes[2] 'uses c'.operator = 'c'", "'a', 'b'"}) {
     EXPECT_TRUE(absl::StrContains(status.message(), part)) << status;
   }
+}
+
+TEST(OperatorCatalog, ReadsWhatItHasSerialized) {
+  MemoryStore store;
+  OperatorCatalog catalog(store, 10);
+  ASSERT_TRUE(put(catalog, "a", 0.25).ok());
+  const std::vector<std::string> names{"a"};
+  const auto kept = *store.get(Kind::kOperator, names);
+  const auto value = OperatorCatalog::parse(kept[0]->value->serialized());
+  ASSERT_TRUE(value.ok()) << value.status();
+  ASSERT_TRUE(store.put(Kind::kOperator, "b", *value, {}, {}).ok());
+  EXPECT_EQ(catalog.get("b")->message->gradient().silhouette().k(), 0.25);
+  EXPECT_EQ(catalog.get("b")->op->silhouette.k, 0.25);
+  EXPECT_EQ(OperatorCatalog::parse("\xff").status().code(), absl::StatusCode::kDataLoss);
 }
 
 TEST(BuiltInOperators, AreTheKindsOfTheContract) {
