@@ -12,7 +12,9 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
+#include "daemon/socket.h"
 #include "isofield/v1/shared_memory.pb.h"
 
 namespace isofield::daemon {
@@ -80,6 +82,11 @@ absl::Status cannot_listen(const std::string& path) {
 }
 
 }  // namespace
+
+std::string region_socket_path(const Config& config) {
+  const std::string path = config.shared_memory ? unix_path(config.listen) : "";
+  return path.empty() ? "" : std::filesystem::absolute(path).string() + ".shm";
+}
 
 Descriptor::~Descriptor() {
   if (number_ >= 0) close(number_);

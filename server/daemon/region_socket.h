@@ -9,9 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/config.h"
 #include "rpc/shared_regions.h"
 
 namespace isofield::daemon {
+
+// The path of that socket beside config.listen, absolute, since clients may run in other folders; empty where no memory
+// is shared.
+std::string region_socket_path(const Config& config);
 
 // Owns a file descriptor.
 class Descriptor {
