@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "base/guarded.h"
 #include "base/status_macros.h"
 #include "blobtree/scene/scene_reader.h"
 #include "blobtree/tape/blend_edit.h"
@@ -66,7 +67,7 @@ absl::Status Engine::evaluate(const PointBatch& batch) {
 }
 
 void Engine::submit(PointBatch batch, EvaluationQueue::Done done) {
-  if (const absl::Status s = prepare(batch); !s.ok()) return done(s);
+  if (const absl::Status s = base::guarded([&] { return prepare(batch); }); !s.ok()) return done(s);
   queue_.submit(std::move(batch), std::move(done));
 }
 

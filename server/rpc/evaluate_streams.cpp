@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "base/guarded.h"
 #include "rpc/answer_limit.h"
 #include "rpc/evaluate_arguments.h"
 #include "rpc/handler.h"
@@ -77,7 +78,7 @@ class EvaluateStreams::Stream {
     lock.unlock();
     // Until is_reading_ is false what follows is this thread's alone.
     auto work = std::make_unique<Work>();
-    const absl::Status status = guarded([&] { return parse(work->request); });
+    const absl::Status status = base::guarded([&] { return parse(work->request); });
     Work* const to_do = status.ok() && PointFields(work->request).has_points() ? work.get() : nullptr;
     lock.lock();
     is_reading_ = false;
@@ -139,7 +140,7 @@ class EvaluateStreams::Stream {
   void evaluate(Work& work) {
     engine::PointBatch batch = *batch_;
     absl::StatusOr<MessagePoints> points =
-        guarded([&] { return streams_.service_.points_of(work.request, batch.quantity); });
+        base::guarded([&] { return streams_.service_.points_of(work.request, batch.quantity); });
     if (!points.ok()) return on_evaluated(work, points.status());
     work.points = *std::move(points);
     work.ticket = streams_.service_.batches().count(work.points.points.size());

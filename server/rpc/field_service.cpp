@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/guarded.h"
 #include "base/status_macros.h"
 #include "rpc/answer_limit.h"
 #include "rpc/evaluate_grid.h"
@@ -60,7 +61,7 @@ absl::StatusOr<std::shared_ptr<FieldService::Evaluation>> FieldService::read(con
 
 void FieldService::evaluate(const grpc::ServerContext& context, grpc::ByteBuffer& incoming,
                             v1::EvaluateRequest& request, Answer done) {
-  const auto evaluation = guarded([&] { return read(context, incoming, request); });
+  const auto evaluation = base::guarded([&] { return read(context, incoming, request); });
   if (!evaluation.ok()) return done(evaluation.status(), grpc::ByteBuffer());
   engine_.submit(std::move((*evaluation)->batch),
                  [&request, evaluation = *evaluation, done = std::move(done)](const absl::Status& status) {

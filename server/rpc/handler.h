@@ -9,11 +9,10 @@
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/support/sync_stream.h>
 
-#include <exception>
 #include <functional>
-#include <new>
 #include <utility>
 
+#include "base/guarded.h"
 #include "base/status_macros.h"
 #include "rpc/admission.h"
 #include "rpc/answer_limit.h"
@@ -40,28 +39,13 @@ class Call {
   Admission::Ticket ticket_;
 };
 
-// Calls a function that returns a Status or a StatusOr. An exception becomes a status: RESOURCE_EXHAUSTED where memory
-// has run out, else INTERNAL.
-template <class Function>
-auto guarded(const Function& function) -> decltype(function()) {
-  try {
-    return function();
-  } catch (const std::bad_alloc&) {
-    return absl::ResourceExhaustedError("the server has too little memory for this request: ask for less at once");
-  } catch (const std::exception& error) {
-    return unexpected(error.what());
-  } catch (...) {
-    return unexpected("an unknown exception");
-  }
-}
-
 // The status with which a call ends. A refusal by admission tells in the trailing metadata when to try again.
 grpc::Status finish(grpc::ServerContext& context, const absl::Status& status);
 
 // Serves a call by handle(Call&), or refuses it.
 template <class Handle>
 grpc::Status serve(grpc::ServerContext& context, Admission& admission, const Handle& handle) {
-  return finish(context, guarded([&]() -> absl::Status {
+  return finish(context, base::guarded([&]() -> absl::Status {
                   ISOFIELD_ASSIGN_OR_RETURN(Admission::Ticket ticket, admission.admit());
                   Call call(context, std::move(ticket));
                   return handle(call);

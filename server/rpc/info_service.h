@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 
+#include "base/guarded.h"
 #include "catalog/operator_catalog.h"
 #include "engine/engine.h"
 #include "isofield/v1/info_service.grpc.pb.h"
@@ -28,7 +29,7 @@ class InfoService final : public v1::InfoService::Service {
   // A full server still tells about itself: this call alone needs no admission.
   grpc::Status GetInfo(grpc::ServerContext* context, const v1::GetInfoRequest*,
                        v1::GetInfoResponse* response) override {
-    return finish(*context, guarded([&] { return get(*response); }));
+    return finish(*context, base::guarded([&] { return get(*response); }));
   }
 
  private:

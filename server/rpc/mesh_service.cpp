@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/guarded.h"
 #include "base/status_macros.h"
 #include "engine/simplify/mesh_measure.h"
 #include "engine/simplify/mesh_simplifier.h"
@@ -107,7 +108,8 @@ MeshService::MeshService(const scenes::SceneSource& scenes, scenes::SceneEditor&
   MarkMethodStreamed(method, new grpc::internal::BidiStreamingHandler<MeshService, grpc::ByteBuffer,
                                                                       v1::TrackMeshResponse>(
                                  [](MeshService* service, grpc::ServerContext* context, TrackMeshStream* stream) {
-                                   return finish(*context, guarded([&] { return service->track(*context, *stream); }));
+                                   const auto track = [&] { return service->track(*context, *stream); };
+                                   return finish(*context, base::guarded(track));
                                  },
                                  this));
 }

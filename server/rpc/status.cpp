@@ -1,7 +1,5 @@
 #include "rpc/status.h"
 
-#include <absl/strings/str_cat.h>
-
 #include "base/quoted.h"
 
 namespace isofield::rpc {
@@ -14,10 +12,6 @@ grpc::Status to_grpc(const absl::Status& status) {
 
 absl::Status client_gone() {
   return absl::CancelledError("the client is gone");
-}
-
-absl::Status unexpected(absl::string_view what) {
-  return absl::InternalError(absl::StrCat("the server met an unexpected error: ", what));
 }
 
 }  // namespace isofield::rpc

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <absl/status/status.h>
-#include <absl/strings/string_view.h>
 #include <grpcpp/support/status.h>
 
 namespace isofield::rpc {
@@ -17,8 +16,5 @@ grpc::Status to_grpc(const absl::Status& status);
 
 // CANCELLED: nobody is there to take an answer.
 absl::Status client_gone();
-
-// INTERNAL: an exception that no handler expects.
-absl::Status unexpected(absl::string_view what);
 
 }  // namespace isofield::rpc

@@ -71,6 +71,30 @@ void set_names(const v1::Scene& scene, std::vector<std::uint32_t>& nodes, v1::Ca
   }
 }
 
+absl::StatusOr<double> read_max_distance(const v1::CastRaysRequest& request, double otherwise) {
+  if (!request.has_max_distance()) return otherwise;
+  if (request.max_distance() > 0) return request.max_distance();
+  return absl::InvalidArgumentError(
+      absl::StrCat("max_distance = ", request.max_distance(), ": expected a length > 0, or none"));
+}
+
+void write_hits(engine::RayHits hits, const v1::Scene& scene, v1::CastRaysResponse& response) {
+  set_names(scene, hits.nodes, response);
+  set_rows(std::span<const float>(hits.distances), 1, *response.mutable_distances());
+  set_rows(std::span<const float>(hits.positions), 3, *response.mutable_positions());
+  set_rows(std::span<const float>(hits.normals), 3, *response.mutable_normals());
+  set_rows(std::span<const std::uint32_t>(hits.nodes), 1, *response.mutable_nodes());
+  set_rows(std::span<const std::uint8_t>(hits.inside), 1, *response.mutable_inside());
+  response.set_cell_size(hits.cell_size);
+}
+
+absl::StatusOr<double> read_tolerance(const v1::ProjectPointsRequest& request, const blobtree::Tape& tape) {
+  if (request.has_tolerance()) return read_length("tolerance", request.tolerance());
+  if (const std::optional<double> edge = longest_support_edge(tape)) return kProjectionTolerance * *edge;
+  return absl::InvalidArgumentError(
+      "tolerance: expected, since the operators of this scene do not bound its field by themselves");
+}
+
 absl::Status check_levels(const v1::SliceRequest& request) {
   if (request.levels_size() > kMaxLevels) {
     return absl::InvalidArgumentError(
@@ -83,6 +107,23 @@ absl::Status check_levels(const v1::SliceRequest& request) {
     }
   }
   return absl::OkStatus();
+}
+
+void write_slice(const engine::Slice& slice, const engine::Plane& plane, const std::vector<double>& levels,
+                 v1::SliceResponse& response) {
+  set_rows(std::span(slice.values), plane.counts[0], *response.mutable_values());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    v1::LevelCurves& curves = *response.add_curves();
+    curves.set_level(levels[i]);
+    set_rows(std::span(slice.lines[i].points), 2, *curves.mutable_points());
+    curves.mutable_starts()->set_dtype(v1::Tensor::UINT32);
+    curves.mutable_starts()->add_shape(slice.lines[i].starts.size());
+    curves.mutable_starts()->set_data(slice.lines[i].starts.data(), 4 * slice.lines[i].starts.size());
+  }
+  set_vector(plane.u, *response.mutable_u());
+  set_vector(plane.v, *response.mutable_v());
+  set_vector(plane.origin, *response.mutable_origin());
+  for (const double spacing : plane.spacing) response.add_spacing(spacing);
 }
 
 }  // namespace
@@ -98,22 +139,10 @@ absl::Status SurfaceService::cast(Call& call, const v1::CastRaysRequest& request
   ISOFIELD_RETURN_IF_ERROR(check_answer_rows(request, origins.size(), 33));
   engine::RayRequest r{.origins = origins.xyz(), .directions = directions.xyz()};
   ISOFIELD_ASSIGN_OR_RETURN(r.surface, read_surface(request, leased.scene->tape(), limits_));
-  if (request.has_max_distance()) {
-    if (!(request.max_distance() > 0)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("max_distance = ", request.max_distance(), ": expected a length > 0, or none"));
-    }
-    r.max_distance = request.max_distance();
-  }
+  ISOFIELD_ASSIGN_OR_RETURN(r.max_distance, read_max_distance(request, r.max_distance));
   ISOFIELD_RETURN_IF_ERROR(call.admit(origins.size()));
   ISOFIELD_ASSIGN_OR_RETURN(engine::RayHits hits, engine_.rays().cast(leased.scene, r, call.cancelled()));
-  set_names(*leased.message, hits.nodes, response);
-  set_rows(std::span<const float>(hits.distances), 1, *response.mutable_distances());
-  set_rows(std::span<const float>(hits.positions), 3, *response.mutable_positions());
-  set_rows(std::span<const float>(hits.normals), 3, *response.mutable_normals());
-  set_rows(std::span<const std::uint32_t>(hits.nodes), 1, *response.mutable_nodes());
-  set_rows(std::span<const std::uint8_t>(hits.inside), 1, *response.mutable_inside());
-  response.set_cell_size(hits.cell_size);
+  write_hits(std::move(hits), *leased.message, response);
   response.set_scene_version(leased.version);
   return absl::OkStatus();
 }
@@ -127,14 +156,7 @@ absl::Status SurfaceService::project(Call& call, const v1::ProjectPointsRequest&
   ISOFIELD_RETURN_IF_ERROR(check_answer_rows(request, points.size(), 29));
   engine::ProjectionRequest r{.points = points.xyz()};
   ISOFIELD_ASSIGN_OR_RETURN(r.iso, read_iso(request, tape.law));
-  if (request.has_tolerance()) {
-    ISOFIELD_ASSIGN_OR_RETURN(r.tolerance, read_length("tolerance", request.tolerance()));
-  } else if (const std::optional<double> edge = longest_support_edge(tape)) {
-    r.tolerance = kProjectionTolerance * *edge;
-  } else {
-    return absl::InvalidArgumentError(
-        "tolerance: expected, since the operators of this scene do not bound its field by themselves");
-  }
+  ISOFIELD_ASSIGN_OR_RETURN(r.tolerance, read_tolerance(request, tape));
   ISOFIELD_RETURN_IF_ERROR(call.admit(points.size()));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::Projections found,
                             engine_.projector().project(*leased.scene, r, call.cancelled()));
@@ -178,19 +200,7 @@ absl::Status SurfaceService::slice(Call& call, const v1::SliceRequest& request, 
   ISOFIELD_RETURN_IF_ERROR(call.admit(samples));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::Slice slice,
                             engine::slice(engine_.fields(), *leased.scene, plane, levels, call.cancelled()));
-  set_rows(std::span(slice.values), plane.counts[0], *response.mutable_values());
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    v1::LevelCurves& curves = *response.add_curves();
-    curves.set_level(levels[i]);
-    set_rows(std::span(slice.lines[i].points), 2, *curves.mutable_points());
-    curves.mutable_starts()->set_dtype(v1::Tensor::UINT32);
-    curves.mutable_starts()->add_shape(slice.lines[i].starts.size());
-    curves.mutable_starts()->set_data(slice.lines[i].starts.data(), 4 * slice.lines[i].starts.size());
-  }
-  set_vector(plane.u, *response.mutable_u());
-  set_vector(plane.v, *response.mutable_v());
-  set_vector(plane.origin, *response.mutable_origin());
-  for (const double spacing : plane.spacing) response.add_spacing(spacing);
+  write_slice(slice, plane, levels, response);
   return absl::OkStatus();
 }
 

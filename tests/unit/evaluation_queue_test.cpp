@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <memory>
+#include <new>
 #include <thread>
 
 namespace isofield::engine {
@@ -49,6 +50,7 @@ class Queue : public testing::Test {
                    const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
     if (!submission.turn) submission.turn = turns_.take(submission.urgency);
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
+    if (has_no_memory_) throw std::bad_alloc();
     submissions_.push_back({&scene, {xyz.begin(), xyz.end()}, quantity, submission.urgency});
     for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
       out[i * components(quantity)] = xyz[3 * i] + xyz[3 * i + 1] + xyz[3 * i + 2];
@@ -95,6 +97,7 @@ class Queue : public testing::Test {
   gpu::Turns turns_;
   gpu::Turns::Turn held_;
   absl::Status outcome_;
+  std::atomic<bool> has_no_memory_ = false;
   std::vector<Submission> submissions_;  // under the turn
   std::vector<std::unique_ptr<Request>> requests_;
   EvaluationQueue queue_;
@@ -212,6 +215,18 @@ TEST_F(Queue, AFailureIsThatOfAllThatWentTogether) {
   release();
   EXPECT_EQ(requests_[0]->status, outcome_);
   EXPECT_EQ(requests_[1]->status, outcome_);
+}
+
+TEST_F(Queue, ExceptionsAreAnsweredAndEndNothing) {
+  wait_with(request(1));
+  wait_with(request(2));
+  wait_with(request(3, EvaluationQueue::kSmallPoints + 1));
+  has_no_memory_ = true;
+  release();
+  for (const auto& r : requests_) EXPECT_EQ(r->status.code(), absl::StatusCode::kResourceExhausted);
+  has_no_memory_ = false;
+  Request& next = request(4);
+  EXPECT_TRUE(queue_.evaluate(next.batch).ok());
 }
 
 TEST_F(Queue, WhatAsksForNothingIsDoneAtOnce) {

@@ -44,9 +44,9 @@ TEST_F(Handler, TurnsExceptionsIntoStatuses) {
 }
 
 TEST_F(Handler, GuardsWhatReturnsAValue) {
-  const auto made = guarded([]() -> absl::StatusOr<int> { throw std::bad_alloc(); });
+  const auto made = base::guarded([]() -> absl::StatusOr<int> { throw std::bad_alloc(); });
   EXPECT_EQ(made.status().code(), absl::StatusCode::kResourceExhausted);
-  EXPECT_EQ(guarded([]() -> absl::StatusOr<int> { return 7; }).value(), 7);
+  EXPECT_EQ(base::guarded([]() -> absl::StatusOr<int> { return 7; }).value(), 7);
 }
 
 TEST_F(Handler, RefusesWhatIsNotAdmitted) {

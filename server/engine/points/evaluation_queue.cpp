@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <future>
 
+#include "base/guarded.h"
 #include "base/status_macros.h"
 
 namespace isofield::engine {
@@ -77,8 +78,8 @@ absl::Status EvaluationQueue::evaluate_large(const PointBatch& batch) {
   if (is_late()) return deadline_exceeded();
   RequestTimes unasked;
   const auto cancelled = [&] { return (batch.cancelled && batch.cancelled()) || is_late(); };
-  const absl::Status status =
-      run(batch, batch.xyz, batch.out, cancelled, {}, batch.times ? *batch.times : unasked);
+  const absl::Status status = base::guarded(
+      [&] { return run(batch, batch.xyz, batch.out, cancelled, {}, batch.times ? *batch.times : unasked); });
   return absl::IsCancelled(status) && is_late() ? deadline_exceeded() : status;
 }
 
@@ -106,7 +107,8 @@ EvaluationQueue::Batches EvaluationQueue::run_next(std::unique_lock<std::mutex>&
   if (!running.empty()) {
     const auto start = std::chrono::steady_clock::now();
     RequestTimes times;
-    const absl::Status status = run_joined(running, std::move(turn), times);
+    const absl::Status status =
+        base::guarded([&] { return run_joined(running, std::move(turn), times); });  // or nobody would be answered
     for (Waiting* w : running) {
       w->status = status;
       if (!w->batch.times) continue;
