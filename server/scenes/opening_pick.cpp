@@ -38,7 +38,6 @@ struct Sample {
   operators::Law law = operators::Law::kPositive;
   double f = 0;
   std::array<double, 3> gradient{};
-  operators::Law law = operators::Law::kPositive;
 };
 
 // A node's field at a point of its own frame.

@@ -100,7 +100,7 @@ TEST_F(CatalogTest, ReadsWhatItHasSerializedWithTheOperatorsOfThatTime) {
   ASSERT_TRUE(store_.put(Kind::kScene, "b", *value, {}, {}).ok());
   const Entry read = catalog_.get("b").value();
   EXPECT_EQ(read.scene->SerializeAsString(), scene.SerializeAsString());
-  EXPECT_EQ(read.operators->table.at("bulge")->silhouette.k, 0.25);
+  EXPECT_EQ(read.operators->table.at("bulge")->as<operators::Gradient>()->silhouette.k, 0.25);
   EXPECT_EQ(read.operators->messages.at("bulge")->SerializeAsString(), bulge.SerializeAsString());
   for (const std::string& broken : {std::string(), bytes.substr(0, 5), bytes.substr(0, bytes.size() - 1)}) {
     EXPECT_EQ(Catalog::parse(broken).status().code(), StatusCode::kDataLoss);

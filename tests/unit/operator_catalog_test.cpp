@@ -126,7 +126,7 @@ TEST(OperatorCatalog, ReadsWhatItHasSerialized) {
   ASSERT_TRUE(value.ok()) << value.status();
   ASSERT_TRUE(store.put(Kind::kOperator, "b", *value, {}, {}).ok());
   EXPECT_EQ(catalog.get("b")->message->gradient().silhouette().k(), 0.25);
-  EXPECT_EQ(catalog.get("b")->op->silhouette.k, 0.25);
+  EXPECT_EQ(catalog.get("b")->op->as<operators::Gradient>()->silhouette.k, 0.25);
   EXPECT_EQ(OperatorCatalog::parse("\xff").status().code(), absl::StatusCode::kDataLoss);
 }
 
