@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "utf8.h"
+
 namespace isofield {
 namespace {
 
@@ -23,42 +25,19 @@ std::string number(Number value) {
   return std::string(digits, std::to_chars(digits, digits + sizeof(digits), value).ptr);
 }
 
-// The length in bytes of the UTF-8 character at the start of `text`; 0 where the bytes are not UTF-8.
-std::size_t character_length(absl::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
-  if (byte(0) >= 0x80 && (byte(0) < 0xc2 || byte(0) > 0xf4)) return 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  // These are overlong forms, surrogates and codes beyond Unicode.
-  const unsigned first = length > 1 ? byte(1) : 0;
-  if ((byte(0) == 0xe0 && first < 0xa0) || (byte(0) == 0xed && first > 0x9f) || (byte(0) == 0xf0 && first < 0x90) ||
-      (byte(0) == 0xf4 && first > 0x8f)) {
-    return 0;
-  }
-  return length;
-}
-
 // A JSON string. JSON is UTF-8, but names of files need not be: other bytes become U+FFFD.
 std::string quoted(absl::string_view text) {
   std::string out = "\"";
-  while (!text.empty()) {
-    const char c = text.front();
-    const std::size_t length = character_length(text);
-    if (length == 0) {
-      out += "\xef\xbf\xbd";
-    } else if (c == '"' || c == '\\') {
-      absl::StrAppend(&out, "\\", text.substr(0, 1));
+  for (const char c : valid_utf8(text)) {
+    if (c == '"' || c == '\\') {
+      out += {'\\', c};
     } else if (c == '\n') {
       out += "\\n";
-    } else if (length == 1 && c < 0x20) {
+    } else if (static_cast<unsigned char>(c) < 0x20) {
       absl::StrAppend(&out, "\\u", absl::Hex(c, absl::kZeroPad4));
     } else {
-      absl::StrAppend(&out, text.substr(0, length));
+      out += c;
     }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return out + "\"";
 }

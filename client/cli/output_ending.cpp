@@ -16,6 +16,7 @@ struct Ending {
 
 constexpr char kMesh[] = "`isofield mesh` writes meshes";
 constexpr char kPicture[] = "`isofield render`, `isofield slice` and `isofield operator plot` draw pictures";
+constexpr char kPlot[] = "`isofield slice` and `isofield operator plot` draw such pictures";
 constexpr char kTable[] = "`isofield eval`, `ray`, `project`, `inside` and `slice` write tables";
 constexpr char kNobody[] = "no command writes such files";
 
@@ -25,6 +26,8 @@ constexpr Ending kEndings[] = {
     {".ply", kMesh},
     {".stl", kMesh},
     {".png", kPicture},
+    {".svg", kPlot},
+    {".pdf", kPlot},
     {".csv", kTable},
     {".npy", kTable},
     {".pb", "`isofield import` writes scenes"},
@@ -39,8 +42,6 @@ constexpr Ending kEndings[] = {
     {".gif", kNobody},
     {".tif", kNobody},
     {".tiff", kNobody},
-    {".svg", kNobody},
-    {".pdf", kNobody},
     {".swc", kNobody},
     {".pdb", kNobody},
     {".ent", kNobody},

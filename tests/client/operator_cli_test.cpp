@@ -1,5 +1,8 @@
 #include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
+
+#include <cstdlib>
 
 #include "command_fixture.h"
 #include "isofield/operator_file.h"
@@ -98,11 +101,28 @@ TEST_F(OperatorCliTest, ErrorsTellWhatIsWrong) {
   EXPECT_EQ(run("operator put " + path("empty.json")), 1);
 }
 
+TEST_F(OperatorCliTest, DrawsWhereNoFontIsInstalled) {
+  const std::string fonts = write_file(path("fonts.conf"), "<fontconfig></fontconfig>");
+  ::setenv("FONTCONFIG_FILE", fonts.c_str(), 1);
+  for (const char* ending : {".png", ".svg", ".pdf"}) {
+    EXPECT_EQ(run(absl::StrCat("operator plot clean --size 64 -o ", path("p"), ending)), 0) << err_;
+  }
+  ::unsetenv("FONTCONFIG_FILE");
+}
+
 TEST_F(OperatorCliTest, DrawsOperatorsAndOpenings) {
   for (const char* name : {"gradient", "gradient --theta 0,45", "gradient --alpha 90", "clean",
                            "bt2 --param r1=1 --param r2=2", "opening", "opening --param preset=contact"}) {
     EXPECT_EQ(run(std::string("operator plot ") + name + " --size 64 -o " + path("p.png")), 0) << name << err_;
     EXPECT_EQ(read_file(path("p.png"))->substr(1, 3), "PNG");
+  }
+  for (const auto& [ending, start] : {std::pair(".png", "\x89PNG"), {".svg", "<?xml"}, {".pdf", "%PDF-"}}) {
+    for (const char* name : {"p", "again"}) {
+      EXPECT_EQ(run(absl::StrCat("operator plot clean --size 64 -o ", path(name), ending)), 0) << err_;
+    }
+    const std::string plot = *read_file(path("p") + ending);
+    EXPECT_TRUE(absl::StartsWith(plot, start)) << ending;
+    EXPECT_EQ(*read_file(path("again") + ending), plot) << "the same bytes each time";
   }
   EXPECT_EQ(run("operator plot clean --theta 10 -o " + path("q.png")), 2);
   EXPECT_EQ(run("operator plot gradient --theta 46 -o " + path("q.png")), 2);

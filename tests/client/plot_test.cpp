@@ -1,20 +1,21 @@
+#include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <functional>
 
-#include "plot/canvas.h"
+#include "isofield/scene_file.h"
+#include "plot/drawing.h"
 #include "plot/level_curves.h"
 #include "plot/operator_plot.h"
+#include "plot/plot_file.h"
 #include "plot/region_outline.h"
-#include "plot/stroke_font.h"
+#include "test_support.h"
 
 namespace isofield {
 namespace {
-
-int darkness(const Image& image, int x, int y) {
-  return 255 - image.rgb[3 * (std::size_t{1} * y * image.width + x)];
-}
 
 TEST(LevelCurves, FollowACircle) {
   constexpr int kSide = 101;
@@ -110,29 +111,132 @@ TEST(OperatorPlot, SkipsLevelsThatWouldRunTogether) {
   }
 }
 
-TEST(Canvas, StrokesCoverTheirWidth) {
-  Canvas canvas(40, 20);
+// The pixels of a drawing.
+struct Pixels {
+  explicit Pixels(const Drawing& drawing)
+      : surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, drawing.width(), drawing.height())) {
+    cairo_t* context = cairo_create(surface);
+    cairo_set_source_surface(context, drawing.recording(), 0, 0);
+    cairo_paint(context);
+    cairo_destroy(context);
+    cairo_surface_flush(surface);
+  }
+  ~Pixels() { cairo_surface_destroy(surface); }
+  Pixels(const Pixels&) = delete;
+  Pixels& operator=(const Pixels&) = delete;
+
+  Color at(int x, int y) const {
+    const unsigned char* row = cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface);
+    return reinterpret_cast<const Color*>(row)[x] & 0xffffff;
+  }
+  int darkness(int x, int y) const { return 255 - static_cast<int>(at(x, y) & 0xff); }
+  // Of all pixels of some columns, in whole pixels.
+  double ink(int first, int last) const {
+    double sum = 0;
+    for (int y = 0; y < cairo_image_surface_get_height(surface); ++y) {
+      for (int x = first; x < last; ++x) sum += darkness(x, y) / 255.0;
+    }
+    return sum;
+  }
+
+  cairo_surface_t* surface;
+};
+
+TEST(Drawing, StrokesCoverTheirWidth) {
+  Drawing drawing(40, 20);
   // Twice the same segment is one stroke.
-  canvas.stroke({{{5, 10}, {35, 10}}, {{5, 10}, {35, 10}}}, 3, {0, 0, 0});
-  double ink = 0;
-  for (int y = 0; y < 20; ++y) ink += darkness(canvas.image(), 20, y);
-  EXPECT_NEAR(ink / 255, 3, 0.05);
-  EXPECT_EQ(darkness(canvas.image(), 20, 10), 255);
-  EXPECT_EQ(darkness(canvas.image(), 38, 10), 0);
-  // Beyond the canvas nothing is written.
-  canvas.stroke({{{-50, -50}, {90, 90}}}, 5, {0, 0, 0});
+  drawing.stroke({{{5, 10}, {35, 10}}, {{5, 10}, {35, 10}}}, 3, 0);
+  const Pixels pixels(drawing);
+  EXPECT_NEAR(pixels.ink(20, 21), 3, 0.05);
+  EXPECT_EQ(pixels.darkness(20, 10), 255);
+  EXPECT_EQ(pixels.darkness(38, 10), 0);
+  // Beyond the drawing nothing is written.
+  drawing.stroke({{{-50, -50}, {90, 90}}}, 5, 0);
+  EXPECT_EQ(drawing.status(), CAIRO_STATUS_SUCCESS);
 }
 
-TEST(StrokeFont, HasDigitsLettersAndSigns) {
-  for (const char c : std::string("0123456789abcdefghijklmnopqrstuvwxyzABZ.,:-+=()/_")) {
-    EXPECT_FALSE(text_strokes(std::string(1, c), 0, 0, 6).empty()) << c;
+TEST(Drawing, PlacesText) {
+  for (const double align : {0.0, 0.5, 1.0}) {
+    Drawing drawing(100, 40);
+    drawing.text("008", {50, 30}, 14, align, 0);
+    const double width = drawing.text_width("008", 14), left = 50 - align * width;
+    EXPECT_GT(width, 14);
+    EXPECT_LT(width, 42);
+    const Pixels pixels(drawing);
+    EXPECT_GT(pixels.ink(0, 100), 30);
+    EXPECT_EQ(pixels.ink(0, static_cast<int>(left) - 1), 0) << align;
+    EXPECT_EQ(pixels.ink(static_cast<int>(left + width) + 2, 100), 0) << align;
   }
-  EXPECT_TRUE(text_strokes(" ", 0, 0, 6).empty());
-  for (const Segment& s : text_strokes("8", 10, 20, 6)) {
-    for (const Point& p : {s.a, s.b}) {
-      EXPECT_TRUE(p.x >= 10 && p.x <= 10 + text_width("8", 6) && p.y <= 20 && p.y >= 14) << p.x << " " << p.y;
-    }
+}
+
+TEST(Drawing, TakesTextThatIsNotUtf8) {
+  Drawing drawing(100, 40);
+  drawing.text("neur\xf3n \xce\xb8", {5, 30}, 14, 0, 0);
+  EXPECT_EQ(drawing.status(), CAIRO_STATUS_SUCCESS);
+  EXPECT_GT(drawing.text_width("\xf3", 14), 0);
+  EXPECT_GT(Pixels(drawing).ink(0, 100), 30);
+}
+
+TEST(Drawing, ShadesWithTheNearestSample) {
+  Drawing drawing(60, 60);
+  // Two rows of three samples; the outer ones lie on the sides, so that their cells are cut in half.
+  drawing.shade({0x000001, 0x000002, 0x000003, 0x000004, 0x000005, 0x000006}, 3, {10, 10}, {50, 30});
+  const Pixels pixels(drawing);
+  EXPECT_EQ(pixels.at(9, 12), 0xffffffu);
+  EXPECT_EQ(pixels.at(10, 10), 1u);
+  EXPECT_EQ(pixels.at(19, 10), 1u);
+  EXPECT_EQ(pixels.at(20, 10), 2u);
+  EXPECT_EQ(pixels.at(39, 19), 2u);
+  EXPECT_EQ(pixels.at(49, 19), 3u);
+  EXPECT_EQ(pixels.at(49, 20), 6u);
+  EXPECT_EQ(pixels.at(10, 29), 4u);
+  EXPECT_EQ(pixels.at(10, 30), 0xffffffu);
+  // A single column fills the rectangle.
+  drawing.shade({0x000007, 0x000008}, 1, {0, 40}, {60, 60});
+  EXPECT_EQ(Pixels(drawing).at(0, 40), 7u);
+  EXPECT_EQ(Pixels(drawing).at(59, 59), 8u);
+}
+
+Drawing small_drawing(int width) {
+  Drawing drawing(width, 40);
+  drawing.shade({0x336699, 0xffffff}, 2, {10, 10}, {20, 20});
+  drawing.stroke({{{5, 10}, {35, 10}}}, 3, 0);
+  drawing.text("theta = 22.5", {5, 30}, 14, 0, 0);
+  return drawing;
+}
+
+std::string written(const Drawing& drawing, const std::string& path) {
+  auto file = OutputFile::create(path);
+  EXPECT_TRUE(file.ok()) << file.status();
+  absl::Status status = write_plot(drawing, plot_format(path).value(), **file);
+  if (status.ok()) status = (*file)->commit();
+  return status.ok() ? *read_file(path) : status.ToString();
+}
+
+TEST(PlotFile, WritesEachFormat) {
+  const TemporaryDirectory directory;
+  for (const auto& [ending, start] : {std::pair("png", "\x89PNG"), {"svg", "<?xml"}, {"PDF", "%PDF-"}}) {
+    const std::string bytes = written(small_drawing(150), directory.path(absl::StrCat("a.", ending)));
+    EXPECT_EQ(bytes.substr(0, std::strlen(start)), start) << ending;
+    EXPECT_FALSE(absl::StrContains(bytes, "CreationDate")) << "which would differ from second to second";
+    // The ids of an SVG go on counting in the same process.
+    if (absl::string_view(ending) == "svg") continue;
+    EXPECT_EQ(written(small_drawing(150), directory.path(absl::StrCat("b.", ending))), bytes) << ending;
   }
+  EXPECT_EQ(plot_format("a.jpg"), std::nullopt);
+}
+
+TEST(PlotFile, KeepsThePlotsSize) {
+  const TemporaryDirectory directory;
+  EXPECT_TRUE(absl::StrContains(written(small_drawing(150), directory.path("a.svg")), "width=\"150px\""));
+  // Points, of which 72 are an inch.
+  EXPECT_TRUE(absl::StrContains(written(small_drawing(150), directory.path("a.pdf")), "0 0 112.5 30"));
+}
+
+TEST(PlotFile, RefusesAPngThatCairoCannotMake) {
+  const TemporaryDirectory directory;
+  EXPECT_TRUE(absl::StrContains(written(small_drawing(32768), directory.path("a.png")), "expected a smaller --size"));
+  EXPECT_TRUE(absl::StrContains(written(small_drawing(32768), directory.path("a.svg")), "width=\"32768px\""));
 }
 
 TEST(OperatorPlot, DrawsAPanelForEachAngle) {
@@ -143,20 +247,20 @@ TEST(OperatorPlot, DrawsAPanelForEachAngle) {
   }
   panel.boundary = {{{0, 0}, {1, 0.5}}};
   plot.panels = {panel, panel, panel};
-  const Image image = draw(plot, 120);
-  EXPECT_EQ(image.width % 3, 0);
-  EXPECT_GT(image.width, 3 * 120);
-  EXPECT_EQ(image.rgb.size(), std::size_t{3} * image.width * image.height);
+  const Drawing drawing = draw(plot, 120);
+  EXPECT_EQ(drawing.status(), CAIRO_STATUS_SUCCESS);
+  EXPECT_EQ(drawing.width() % 3, 0);
+  EXPECT_GT(drawing.width(), 3 * 120);
   plot.panels = {panel};
-  EXPECT_EQ(draw(plot, 120).width, image.width / 3);
+  EXPECT_EQ(draw(plot, 120).width(), drawing.width() / 3);
   plot.heading = std::string(400, 'a');
-  EXPECT_GT(draw(plot, 120).height, image.height) << "above the panels";
-  EXPECT_EQ(draw(plot, 120).width, image.width / 3) << "and shortened";
+  EXPECT_GT(draw(plot, 120).height(), drawing.height()) << "above the panels";
+  EXPECT_EQ(draw(plot, 120).width(), drawing.width() / 3) << "and shortened";
   plot.low = -1;
   plot.high = 2;
   plot.surface = 0;
   std::fill(plot.panels[0].g.begin(), plot.panels[0].g.end(), 0.0f);
-  EXPECT_EQ(draw(plot, 120).width, image.width / 3) << "a constant operator has no curves";
+  EXPECT_EQ(draw(plot, 120).width(), drawing.width() / 3) << "a constant operator has no curves";
 }
 
 }  // namespace

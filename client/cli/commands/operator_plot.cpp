@@ -1,6 +1,5 @@
 #include "plot/operator_plot.h"
 
-#include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
 
@@ -17,6 +16,7 @@
 #include "operators/argument_columns.h"
 #include "output_file.h"
 #include "plot/opening_plot.h"
+#include "plot/plot_file.h"
 #include "plot/region_outline.h"
 
 namespace isofield {
@@ -207,6 +207,12 @@ absl::StatusOr<OperatorPlot> sample_operator(const PlotArguments& arguments, con
   return plot;
 }
 
+absl::StatusOr<Drawing> plot_operator(const PlotArguments& arguments, const ChosenOperator& chosen, Client& client) {
+  const auto sampled = sample_operator(arguments, chosen, client);
+  if (!sampled.ok()) return sampled.status();
+  return draw(*sampled, arguments.size);
+}
+
 absl::StatusOr<OpeningCurve> sample_opening(const std::string& name, v1::EvaluateOperatorRequest request,
                                             Client& client) {
   request.add_columns("alpha");
@@ -224,7 +230,7 @@ absl::StatusOr<OpeningCurve> sample_opening(const std::string& name, v1::Evaluat
 }
 
 // Without parameters all presets.
-absl::StatusOr<Image> plot_opening(const PlotArguments& arguments, const ChosenOperator& chosen, Client& client) {
+absl::StatusOr<Drawing> plot_opening(const PlotArguments& arguments, const ChosenOperator& chosen, Client& client) {
   if (!arguments.thetas.empty() || !arguments.alphas.empty()) {
     return usage_error("an opening is drawn over all angles; expected neither --theta nor --alpha");
   }
@@ -251,26 +257,22 @@ absl::StatusOr<Image> plot_opening(const PlotArguments& arguments, const ChosenO
 }
 
 absl::Status plot(const Context& context, const PlotArguments& arguments) {
-  if (!absl::EndsWithIgnoreCase(arguments.output, ".png")) {
-    return usage_error(absl::StrCat(arguments.output, ": not a picture that can be written; expected .png"));
+  const auto format = plot_format(arguments.output);
+  if (!format) {
+    return usage_error(
+        absl::StrCat(arguments.output, ": not a picture that can be written; expected .png, .svg or .pdf"));
   }
   if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
   auto client = context.connect();
   if (!client.ok()) return client.status();
   const auto chosen = choose_operator(arguments.op, *client);
   if (!chosen.ok()) return chosen.status();
-  absl::StatusOr<Image> image;
-  if (arguments.op.is_opening()) {
-    image = plot_opening(arguments, *chosen, *client);
-  } else {
-    const auto sampled = sample_operator(arguments, *chosen, *client);
-    if (!sampled.ok()) return sampled.status();
-    image = draw(*sampled, arguments.size);
-  }
-  if (!image.ok()) return image.status();
+  const auto drawing = arguments.op.is_opening() ? plot_opening(arguments, *chosen, *client)
+                                                 : plot_operator(arguments, *chosen, *client);
+  if (!drawing.ok()) return drawing.status();
   auto file = OutputFile::create(arguments.output);
   if (!file.ok()) return file_error(file.status());
-  absl::Status status = write_png(*image, **file);
+  absl::Status status = write_plot(*drawing, *format, **file);
   if (status.ok()) status = (*file)->commit();
   if (!status.ok()) return file_error(status);
   if (context.json) JsonObject().set("file", arguments.output).print();
@@ -283,7 +285,7 @@ void add_operator_plot_command(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<PlotArguments>();
   CLI::App* command = app.add_subcommand("plot", "Draw an operator's level curves, or openings");
   arguments->op.add_to(*command);
-  command->add_option("-o,--output", arguments->output, "Picture to write (.png)")->required();
+  command->add_option("-o,--output", arguments->output, "Picture to write (.png, .svg or .pdf)")->required();
   auto* thetas = command->add_option("--theta", arguments->thetas, "Opening angles in degrees, a panel each")
                      ->delimiter(',')
                      ->allow_extra_args(false)
@@ -295,7 +297,7 @@ void add_operator_plot_command(CLI::App& app, Context& context) {
       ->check(within(0.0, 180.0))
       ->expected(1, 16)
       ->excludes(thetas);
-  command->add_option("--size", arguments->size, "Side of a panel in pixels")
+  command->add_option("--size", arguments->size, "Side of a panel in pixels; in .svg and .pdf 96 are an inch")
       ->check(whole(64, 2048))
       ->capture_default_str();
   command->callback([&context, arguments] { context.outcome = plot(context, *arguments); });

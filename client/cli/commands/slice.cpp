@@ -11,6 +11,7 @@
 #include "exit_codes.h"
 #include "json_output.h"
 #include "output_ending.h"
+#include "plot/plot_file.h"
 #include "plot/slice_plot.h"
 #include "points/npy_header.h"
 #include "points/table.h"
@@ -44,8 +45,8 @@ absl::StatusOr<Slice> request_slice(const Context& context, const SliceArguments
 
 absl::Status write_slice(const Slice& slice, const SliceArguments& arguments, OutputFile& file) {
   const std::array<double, 2>& spacing = slice.spacing;
-  if (absl::EndsWithIgnoreCase(arguments.output, ".png")) {
-    return write_png(draw(slice, spacing, stem(arguments.scene), arguments.size), file);
+  if (const auto format = plot_format(arguments.output)) {
+    return write_plot(draw(slice, spacing, stem(arguments.scene), arguments.size), *format, file);
   }
   if (absl::EndsWithIgnoreCase(arguments.output, ".npy")) {
     absl::Status status = file.write(npy_header(slice.counts[1], slice.counts[0]));
@@ -68,8 +69,10 @@ absl::Status slice_scene(const Context& context, const SliceArguments& arguments
   if (arguments.output == "-" && context.json) {
     return usage_error("--json and results on the standard output do not go together; state -o FILE");
   }
-  if (auto status = check_output_ending(arguments.output, {".png", ".csv", ".npy", ".json"}); !status.ok())
+  if (auto status = check_output_ending(arguments.output, {".png", ".svg", ".pdf", ".csv", ".npy", ".json"});
+      !status.ok()) {
     return status;
+  }
   if (auto status = OutputFile::check(arguments.output); !status.ok()) return file_error(status);
   const auto slice = request_slice(context, arguments);
   if (!slice.ok()) return slice.status();
@@ -138,10 +141,10 @@ void add_slice_command(CLI::App& app, Context& context) {
   command
       ->add_option(
           "-o,--output", arguments->output,
-          "Picture (.png), NumPy array (counts[1], counts[0]) (.npy), or u,v,value as text (.csv) or an object "
-          "of arrays (.json), u and v from the first sample; - is text on the standard output")
+          "Picture (.png, .svg, .pdf), NumPy array (counts[1], counts[0]) (.npy), or u,v,value as text (.csv) or an "
+          "object of arrays (.json), u and v from the first sample; - is text on the standard output")
       ->required();
-  command->add_option("--size", arguments->size, "Pixels of a picture's longer side")
+  command->add_option("--size", arguments->size, "Pixels of a picture's longer side; in .svg and .pdf 96 are an inch")
       ->check(whole(64, 8192))
       ->capture_default_str();
   arguments->flags.add_to(*command);

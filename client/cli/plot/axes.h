@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "plot/canvas.h"
+#include "plot/drawing.h"
 
 namespace isofield {
 
-inline constexpr Color kInk{25, 30, 40};
+inline constexpr Color kInk = 0x191e28;
 
-// A plot's frame: where it lies on the canvas, and what its sides mean.
+// A plot's frame: where it lies on the drawing, and what its sides mean.
 struct Axes {
   double left = 0, top = 0, width = 0, height = 0;  // pixels
   double x_low = 0, x_high = 1, y_low = 0, y_high = 1;
@@ -20,8 +20,11 @@ struct Axes {
   Point place(double x, double y) const {
     return {left + width * (x - x_low) / (x_high - x_low), top + height * (y_high - y) / (y_high - y_low)};
   }
-  // Frame, tick marks, their numbers and the names.
-  void draw(Canvas& canvas) const;
+  // The frame's corners in pixels.
+  Point upper_left() const { return {left, top}; }
+  Point lower_right() const { return {left + width, top + height}; }
+  // Draws the frame, tick marks, their numbers and the names.
+  void draw(Drawing& drawing) const;
 };
 
 }  // namespace isofield

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "plot/canvas.h"
+#include "plot/segment.h"
 
 namespace isofield {
 

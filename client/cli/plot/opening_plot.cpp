@@ -1,29 +1,29 @@
 #include "plot/opening_plot.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "plot/axes.h"
-#include "plot/canvas.h"
 
 namespace isofield {
 namespace {
 
-constexpr Color kColors[] = {{20, 80, 170}, {214, 84, 30}, {30, 140, 80}};
-constexpr Color kGrid{222, 226, 232};
+constexpr Color kColors[] = {0x1450aa, 0xd6541e, 0x1e8c50};
+constexpr Color kGrid = 0xdee2e8;
 
 }  // namespace
 
-Image draw(const std::vector<OpeningCurve>& curves, int size) {
+Drawing draw(const std::vector<OpeningCurve>& curves, int size) {
   const double text = std::clamp(size / 30.0, 7.0, 24.0);
   const double left = 5 * text, right = 3 * text, top = 5.5 * text, bottom = 5 * text;
-  Canvas canvas(static_cast<int>(left + 2 * size + right), static_cast<int>(top + size + bottom));
-  const Axes axes{std::floor(left),      std::floor(top), 2.0 * size,    1.0 * size,    0,   180, 0, 45,
-                  {0, 45, 90, 135, 180}, {0, 15, 30, 45}, "alpha (deg)", "theta (deg)", text};
+  Drawing drawing(static_cast<int>(left + 2 * size + right), static_cast<int>(top + size + bottom));
+  const Axes axes{std::floor(left) + 0.5, std::floor(top) + 0.5, 2.0 * size,    1.0 * size,    0,   180, 0, 45,
+                  {0, 45, 90, 135, 180},  {0, 15, 30, 45},       "alpha (deg)", "theta (deg)", text};
   std::vector<Segment> grid;
   for (const double x : axes.x_ticks) grid.push_back({axes.place(x, 0), axes.place(x, 45)});
   for (const double y : axes.y_ticks) grid.push_back({axes.place(0, y), axes.place(180, y)});
-  canvas.stroke(grid, 1, kGrid);
-  axes.draw(canvas);
+  drawing.stroke(grid, 1, kGrid);
+  axes.draw(drawing);
   double legend = left + 2.0 * size;
   for (std::size_t i = curves.size(); i-- > 0;) {
     const OpeningCurve& curve = curves[i];
@@ -34,15 +34,15 @@ Image draw(const std::vector<OpeningCurve>& curves, int size) {
       segments.push_back({axes.place(step * static_cast<double>(at - 1), curve.theta[at - 1]),
                           axes.place(step * static_cast<double>(at), curve.theta[at])});
     }
-    canvas.stroke(segments, 2.2, color);
+    drawing.stroke(segments, 2.2, color);
     // From right to left: a sample of the line before each name.
     const double y = top - 3 * text;
-    canvas.text(curve.name, legend, y, 1.1 * text, 1, kInk);
-    legend -= static_cast<double>(curve.name.size()) * 1.1 * text + text;
-    canvas.stroke({{{legend - 2.5 * text, y - 0.5 * text}, {legend, y - 0.5 * text}}}, 2.2, color);
-    legend -= 4.5 * text;
+    drawing.text(curve.name, {legend, y}, 1.1 * text, 1, kInk);
+    legend -= drawing.text_width(curve.name, 1.1 * text) + text;
+    drawing.stroke({{{legend - 2.5 * text, y - 0.5 * text}, {legend, y - 0.5 * text}}}, 2.2, color);
+    legend -= 5 * text;
   }
-  return canvas.image();
+  return drawing;
 }
 
 }  // namespace isofield

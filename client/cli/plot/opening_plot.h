@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "render/image.h"
+#include "plot/drawing.h"
 
 namespace isofield {
 
@@ -14,6 +14,6 @@ struct OpeningCurve {
 };
 
 // `size`: the plot's height in pixels; it is twice as wide.
-Image draw(const std::vector<OpeningCurve>& curves, int size);
+Drawing draw(const std::vector<OpeningCurve>& curves, int size);
 
 }  // namespace isofield

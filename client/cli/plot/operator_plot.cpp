@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "plot/axes.h"
-#include "plot/canvas.h"
 #include "plot/level_curves.h"
-#include "plot/stroke_font.h"
 
 namespace isofield {
 namespace {
 
-constexpr Color kLevel{120, 140, 170};
-constexpr Color kSurface{20, 50, 110};
-constexpr Color kBoundary{214, 84, 30};
-constexpr Color kInside{229, 237, 248};
+constexpr Color kLevel = 0x788caa;
+constexpr Color kSurface = 0x14326e;
+constexpr Color kBoundary = 0xd6541e;
+constexpr Color kInside = 0xe5edf8, kOutside = 0xffffff;
 // Level curves nearer than this to each other, in pixels, are too dense, if more than that part of a curve is.
 constexpr double kLeastDistance = 4, kDensePart = 0.25;
 
@@ -27,23 +26,22 @@ std::vector<Segment> placed(std::vector<Segment> segments, const OperatorPlot& p
   return segments;
 }
 
-void fill_inside(const OperatorPlot& plot, const std::vector<float>& g, const Axes& axes, Canvas& canvas) {
-  const auto size = static_cast<int>(axes.width);
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      // The nearest sample is near enough: the edge lies below the surface's stroke.
-      const auto i = std::lround((x + 0.5) / size * (plot.side - 1));
-      const auto j = std::lround((1 - (y + 0.5) / size) * (plot.side - 1));
+// A colour for each sample. Their rows begin at the bottom, those of the colours at the top. The edge of what is inside
+// lies below the surface's stroke.
+std::vector<Color> shades(const OperatorPlot& plot, const std::vector<float>& g) {
+  std::vector<Color> colors;
+  colors.reserve(g.size());
+  for (int j = plot.side; j-- > 0;) {
+    for (int i = 0; i < plot.side; ++i) {
       const float value = g[static_cast<std::size_t>(j * plot.side + i)];
-      if ((value > plot.surface) == plot.inside_above) {
-        canvas.fill_pixel(static_cast<int>(axes.left) + x, static_cast<int>(axes.top) + y, kInside);
-      }
+      colors.push_back((value > plot.surface) == plot.inside_above ? kInside : kOutside);
     }
   }
+  return colors;
 }
 
 Point middle(const Segment& s) {
-  return {(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2};
+  return (s.a + s.b) / 2.0;
 }
 
 // Both curves in the samples' coordinates; `near`: in those too.
@@ -51,34 +49,37 @@ bool is_dense(const std::vector<Segment>& curve, const std::vector<Segment>& bef
   std::size_t dense = 0;
   for (const Segment& s : curve) {
     const Point p = middle(s);
-    dense += std::any_of(before.begin(), before.end(), [&](const Segment& other) {
-      const Point q = middle(other);
-      return std::hypot(p.x - q.x, p.y - q.y) < near;
-    });
+    dense += std::any_of(before.begin(), before.end(),
+                         [&](const Segment& other) { return glm::distance(p, middle(other)) < near; });
   }
   return static_cast<double>(dense) > kDensePart * static_cast<double>(curve.size());
 }
 
-void draw_panel(const OperatorPlot& plot, const OperatorPlot::Panel& panel, const Axes& axes, Canvas& canvas) {
-  fill_inside(plot, panel.g, axes, canvas);
+void draw_panel(const OperatorPlot& plot, const OperatorPlot::Panel& panel, const Axes& axes, Drawing& drawing) {
+  drawing.shade(shades(plot, panel.g), plot.side, axes.upper_left(), axes.lower_right());
   std::vector<Segment> levels;
   for (const float level : shown_levels(plot, panel.g, static_cast<int>(axes.width))) {
     const auto curve = level_curve(panel.g, plot.side, level);
     levels.insert(levels.end(), curve.begin(), curve.end());
   }
-  canvas.stroke(placed(std::move(levels), plot, axes), 1.1, kLevel);
-  canvas.stroke(placed(level_curve(panel.g, plot.side, static_cast<float>(plot.surface)), plot, axes), 2.6, kSurface);
+  drawing.stroke(placed(std::move(levels), plot, axes), 1.1, kLevel);
+  drawing.stroke(placed(level_curve(panel.g, plot.side, static_cast<float>(plot.surface)), plot, axes), 2.6, kSurface);
   std::vector<Segment> boundary = panel.boundary;
   for (Segment& s : boundary) s = {axes.place(s.a.x, s.a.y), axes.place(s.b.x, s.b.y)};
-  canvas.stroke(boundary, 1.8, kBoundary);
-  axes.draw(canvas);
-  canvas.text(panel.title, axes.left + axes.width / 2, axes.top - axes.text_height, 1.1 * axes.text_height, 0.5, kInk);
+  drawing.stroke(boundary, 1.8, kBoundary);
+  axes.draw(drawing);
+  drawing.text(panel.title, {axes.left + axes.width / 2, axes.top - axes.text_height}, 1.1 * axes.text_height, 0.5,
+               kInk);
 }
 
 // The beginning of a text that is at most so wide.
-std::string fitted(std::string text, double height, double width) {
-  if (text_width(text, height) <= width) return text;
-  while (!text.empty() && text_width(text + "...", height) > width) text.pop_back();
+std::string fitted(std::string text, double height, double width, Drawing& drawing) {
+  if (drawing.text_width(text, height) <= width) return text;
+  while (!text.empty() && drawing.text_width(text + "...", height) > width) {
+    const auto is_inner_byte = [](char c) { return (c & 0xc0) == 0x80; };
+    while (text.size() > 1 && is_inner_byte(text.back())) text.pop_back();
+    text.pop_back();
+  }
   return text + "...";
 }
 
@@ -112,25 +113,25 @@ std::vector<float> shown_levels(const OperatorPlot& plot, const std::vector<floa
   return levels;
 }
 
-Image draw(const OperatorPlot& plot, int size) {
+Drawing draw(const OperatorPlot& plot, int size) {
   const double text = std::clamp(size / 30.0, 7.0, 24.0);
   const double heading = plot.heading.empty() ? 0 : 2 * text;
   const double left = 5 * text, right = 1.5 * text, top = 3.5 * text + heading, bottom = 5 * text;
   const auto panels = static_cast<int>(plot.panels.size());
   const auto pitch = static_cast<int>(left + size + right);
-  Canvas canvas(panels * pitch, static_cast<int>(top + size + bottom));
+  Drawing drawing(panels * pitch, static_cast<int>(top + size + bottom));
   // In smaller letters before it is shortened.
   const double room = panels * pitch - 2 * text;
-  const double fits = 1.1 * text * room / std::max(1.0, text_width(plot.heading, 1.1 * text));
+  const double fits = 1.1 * text * room / std::max(1.0, drawing.text_width(plot.heading, 1.1 * text));
   const double height = std::clamp(fits, std::max(0.75 * text, 6.0), 1.1 * text);
-  canvas.text(fitted(plot.heading, height, room), panels * pitch / 2.0, 2.5 * text, height, 0.5, kInk);
+  drawing.text(fitted(plot.heading, height, room, drawing), {panels * pitch / 2.0, 2.5 * text}, height, 0.5, kInk);
   std::vector<double> ticks;
   for (const double part : {0.0, 0.5, 1.0}) ticks.push_back(plot.low + part * (plot.high - plot.low));
   // Zero belongs among them.
   if (plot.low < 0) ticks = {plot.low, 0, plot.high / 2, plot.high};
   for (int i = 0; i < panels; ++i) {
-    const Axes axes{std::floor(i * pitch + left),
-                    std::floor(top),
+    const Axes axes{std::floor(i * pitch + left) + 0.5,
+                    std::floor(top) + 0.5,
                     double(size),
                     double(size),
                     plot.low,
@@ -142,9 +143,9 @@ Image draw(const OperatorPlot& plot, int size) {
                     plot.x_name,
                     plot.y_name,
                     text};
-    draw_panel(plot, plot.panels[i], axes, canvas);
+    draw_panel(plot, plot.panels[i], axes, drawing);
   }
-  return canvas.image();
+  return drawing;
 }
 
 }  // namespace isofield

@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "plot/canvas.h"
-#include "render/image.h"
+#include "plot/drawing.h"
 
 namespace isofield {
 
@@ -30,6 +29,6 @@ struct OperatorPlot {
 std::vector<float> shown_levels(const OperatorPlot& plot, const std::vector<float>& g, int size);
 
 // `size`: a panel's side in pixels.
-Image draw(const OperatorPlot& plot, int size);
+Drawing draw(const OperatorPlot& plot, int size);
 
 }  // namespace isofield

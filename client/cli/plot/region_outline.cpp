@@ -1,6 +1,6 @@
 #include "plot/region_outline.h"
 
-#include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace isofield {
@@ -13,10 +13,10 @@ constexpr double kLeastLength = 0.02;
 
 // A lattice edge, in lattice coordinates, that leads from outside (t = low) to inside (t = high).
 struct Crossing {
-  Point from, to;
+  Point from{}, to{};
   double low = 0, high = 1;
 
-  Point at(double t) const { return {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)}; }
+  Point at(double t) const { return from + t * (to - from); }
 };
 
 }  // namespace
@@ -24,7 +24,7 @@ struct Crossing {
 absl::StatusOr<std::vector<Segment>> region_outline(double low, double high, int cells, const Membership& contains) {
   const int side = cells + 1;
   const double step = (high - low) / cells;
-  const auto placed = [&](const Point& p) { return Point{low + step * p.x, low + step * p.y}; };
+  const auto placed = [&](const Point& p) { return low + step * p; };
   std::vector<Point> points;
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i) points.push_back(placed({double(i), double(j)}));
@@ -69,7 +69,7 @@ absl::StatusOr<std::vector<Segment>> region_outline(double low, double high, int
 
   std::vector<Segment> outline;
   const auto end = [&](int crossing) { return crossings[crossing].at(crossings[crossing].high); };
-  const auto length = [&](int a, int b) { return std::hypot(end(a).x - end(b).x, end(a).y - end(b).y); };
+  const auto length = [&](int a, int b) { return glm::distance(end(a), end(b)); };
   const auto join = [&](int a, int b) {
     if (length(a, b) >= kLeastLength) outline.push_back({placed(end(a)), placed(end(b))});
   };

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "plot/canvas.h"
+#include "plot/segment.h"
 
 namespace isofield {
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <optional>
+#include <string>
+
+#include "output_file.h"
+#include "plot/drawing.h"
+
+namespace isofield {
+
+enum class PlotFormat { kPng, kSvg, kPdf };
+
+// By the ending: .png, .svg or .pdf.
+std::optional<PlotFormat> plot_format(const std::string& path);
+
+// Writes a drawing, and does not commit the file. The same drawing makes the same bytes where the same font is
+// installed, but the ids of an SVG go on counting within a process. In SVG and PDF a pixel is 1/96 inch. PDF has text
+// that can be searched, and SVG the outlines of its letters. OUT_OF_RANGE: the drawing is too large for a PNG.
+absl::Status write_plot(const Drawing& drawing, PlotFormat format, OutputFile& file);
+
+}  // namespace isofield
