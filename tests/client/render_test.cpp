@@ -56,7 +56,7 @@ TEST(Camera, StandsWhereTheViewSays) {
   view.field_of_view = 90;
   const Camera camera = fit_camera(mesh.positions, view, 2);
   // From the right side: x points at the viewer, z to the left.
-  const Vector eye = camera.to_camera({6, 2, 3}), beside = camera.to_camera({1, 2, 2});
+  const glm::vec3 eye = camera.to_camera({6, 2, 3}), beside = camera.to_camera({1, 2, 2});
   EXPECT_NEAR(std::sqrt(dot(eye, eye)), 0, 1e-5);
   EXPECT_NEAR(beside.x, 1, 1e-5);
   EXPECT_NEAR(beside.z, -5, 1e-5);
@@ -83,7 +83,7 @@ TEST(Render, DrawsFromWithinAndFromBehind) {
   RenderOptions options;
   options.width = options.height = 32;
   for (const double distance : {1e-6, 1.0, 1e20}) {
-    for (const std::array<double, 3> target : {std::array{3.0, 0.0, 0.0}, std::array{0.0, 0.0, -1e6}}) {
+    for (const glm::dvec3 target : {glm::dvec3(3, 0, 0), glm::dvec3(0, 0, -1e6)}) {
       options.view.target = target;
       options.view.distance = distance;
       EXPECT_TRUE(render(mesh, options).ok());

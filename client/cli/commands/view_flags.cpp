@@ -27,13 +27,13 @@ const std::map<std::string, Side>& sides() {
 }
 
 // The side from which a direction looks. The azimuth is 0 where it looks straight up or down.
-Side side_of(const std::array<double, 3>& direction) {
+Side side_of(const glm::dvec3& direction) {
   constexpr double kDegrees = 180 / std::numbers::pi;
-  const auto& [x, y, z] = direction;
+  const double x = direction.x, y = direction.y, z = direction.z;
   return {x == 0 && z == 0 ? 0 : std::atan2(-x, -z) * kDegrees, std::atan2(-y, std::hypot(x, z)) * kDegrees};
 }
 
-std::array<double, 3> to_array(const std::vector<double>& v) {
+glm::dvec3 to_vector(const std::vector<double>& v) {
   return {v[0], v[1], v[2]};
 }
 
@@ -93,8 +93,8 @@ absl::StatusOr<View> ViewFlags::view() const {
     const Side side = side_.empty() ? side_of(view.direction) : sides().at(side_);
     view.turn_to(azimuth_.value_or(side.azimuth), elevation_.value_or(side.elevation));
   }
-  if (!up_.empty()) view.up = to_array(up_);
-  if (!target_.empty()) view.target = to_array(target_);
+  if (!up_.empty()) view.up = to_vector(up_);
+  if (!target_.empty()) view.target = to_vector(target_);
   if (distance_) view.distance = distance_;
   if (field_of_view_) view.field_of_view = *field_of_view_;
   const std::string fault = view_fault(view);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "render/vector.h"
+#include "render/unit_vector.h"
 
 namespace isofield {
 namespace {
@@ -31,11 +31,8 @@ std::uint32_t next(std::uint32_t corner) {
   return corner % 3 == 2 ? corner - 2 : corner + 1;
 }
 
-float length(const Vector& a) {
-  return std::sqrt(dot(a, a));
-}
-float angle(const Vector& a, const Vector& b) {
-  return std::atan2(length(cross(a, b)), dot(a, b));
+float angle(const glm::vec3& a, const glm::vec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 class Creases {
@@ -76,18 +73,18 @@ class Creases {
       }
     }
     out.normals.resize(mesh_.normals.size() + 3 * out.vertices.size());
-    std::vector<Vector> sums(vertices + out.vertices.size());
+    std::vector<glm::vec3> sums(vertices + out.vertices.size());
     for (std::uint32_t c = 0; c < parents_.size(); ++c) {
       if (!is_split[triangles_[c]]) continue;
       out.corners[3 * std::size_t{numbers_[c / 3]} + c % 3] = normals[c];
-      const Vector p = position(c), along = position(next(c)) - p, back = position(next(next(c))) - p;
-      Vector& sum = sums[normals[c]];
-      sum = sum + directions_[c / 3] * angle(along, back);
+      const glm::vec3 p = position(c), along = position(next(c)) - p, back = position(next(next(c))) - p;
+      glm::vec3& sum = sums[normals[c]];
+      sum += directions_[c / 3] * angle(along, back);
     }
     for (std::size_t n = 0; n < sums.size(); ++n) {
-      const float size = length(sums[n]);
+      const float size = glm::length(sums[n]);
       if (size > 0) {
-        const Vector unit = sums[n] * (1 / size);
+        const glm::vec3 unit = sums[n] * (1 / size);
         std::copy_n(std::begin({unit.x, unit.y, unit.z}), 3, &out.normals[3 * n]);
       }
     }
@@ -95,9 +92,9 @@ class Creases {
   }
 
  private:
-  Vector position(std::uint32_t corner) const { return at(mesh_.positions, triangles_[corner]); }
-  Vector normal(std::uint32_t corner) const { return at(mesh_.normals, triangles_[corner]); }
-  static Vector at(const std::vector<float>& rows, std::uint32_t row) {
+  glm::vec3 position(std::uint32_t corner) const { return at(mesh_.positions, triangles_[corner]); }
+  glm::vec3 normal(std::uint32_t corner) const { return at(mesh_.normals, triangles_[corner]); }
+  static glm::vec3 at(const std::vector<float>& rows, std::uint32_t row) {
     const float* r = &rows[3 * std::size_t{row}];
     return {r[0], r[1], r[2]};
   }
@@ -107,11 +104,11 @@ class Creases {
     const auto& all = mesh_.triangles;
     may_split_.resize(mesh_.vertex_count());
     for (std::size_t t = 0; t < all.size(); t += 3) {
-      const Vector a = at(mesh_.positions, all[t]);
-      const Vector n = cross(at(mesh_.positions, all[t + 1]) - a, at(mesh_.positions, all[t + 2]) - a);
-      const float least = kHalfTurn * length(n);
+      const glm::vec3 a = at(mesh_.positions, all[t]);
+      const glm::vec3 n = glm::cross(at(mesh_.positions, all[t + 1]) - a, at(mesh_.positions, all[t + 2]) - a);
+      const float least = kHalfTurn * glm::length(n);
       for (std::size_t c = t; c < t + 3; ++c) {
-        if (dot(n, at(mesh_.normals, all[c])) <= least) may_split_[all[c]] = true;
+        if (glm::dot(n, at(mesh_.normals, all[c])) <= least) may_split_[all[c]] = true;
       }
     }
     for (std::size_t t = 0; t < all.size(); t += 3) {
@@ -139,14 +136,14 @@ class Creases {
 
   void find_directions() {
     const std::size_t count = opposites_.size() / 3;
-    std::vector<Vector> own(count);
+    std::vector<glm::vec3> own(count);
     std::vector<std::uint32_t> beside(count, kNone);  // of thin ones
     for (std::uint32_t t = 0; t < count; ++t) {
-      const Vector a = position(3 * t), b = position(3 * t + 1), c = position(3 * t + 2);
-      const Vector n = cross(b - a, c - a);
-      const float edges[] = {length(b - a), length(c - b), length(a - c)};
+      const glm::vec3 a = position(3 * t), b = position(3 * t + 1), c = position(3 * t + 2);
+      const glm::vec3 n = glm::cross(b - a, c - a);
+      const float edges[] = {glm::length(b - a), glm::length(c - b), glm::length(a - c)};
       const auto longest = std::max_element(edges, edges + 3);
-      const float size = length(n);
+      const float size = glm::length(n);
       if (size > 0) own[t] = n * (1 / size);
       const std::uint32_t across = opposites_[3 * t + static_cast<std::uint32_t>(longest - edges)];
       if (size < kThin * *longest * *longest && across != kNone) beside[t] = across / 3;
@@ -197,18 +194,18 @@ class Creases {
   }
 
   EdgeKind kind_of(std::uint32_t c, std::uint32_t d) const {
-    const Vector &f = directions_[c / 3], &g = directions_[d / 3];
-    if (dot(f, g) > kLeastAlong) return EdgeKind::kSmooth;
+    const glm::vec3 &f = directions_[c / 3], &g = directions_[d / 3];
+    if (glm::dot(f, g) > kLeastAlong) return EdgeKind::kSmooth;
     const float turn = angle(f, g);
-    const Vector along = normalize(position(next(c)) - position(c));
+    const glm::vec3 along = unit_vector(position(next(c)) - position(c));
     // The angle between the normal and the further triangle, as a part of the turn.
-    const auto part_of_turn = [&](const Vector& n) {
-      const Vector across = n - along * dot(n, along);
-      return length(across) > kLeastAcross ? std::max(angle(across, f), angle(across, g)) / turn : 1;
+    const auto part_of_turn = [&](const glm::vec3& n) {
+      const glm::vec3 across = n - along * glm::dot(n, along);
+      return glm::length(across) > kLeastAcross ? std::max(angle(across, f), angle(across, g)) / turn : 1;
     };
     const auto [least, most] = std::minmax({part_of_turn(normal(c)), part_of_turn(normal(next(c)))});
     if (most <= kMeanOfTurn) return EdgeKind::kSmooth;
-    if (dot(f, g) > kLeastTurn) return most > kMostOfTurn ? EdgeKind::kMayGoOn : EdgeKind::kSmooth;
+    if (glm::dot(f, g) > kLeastTurn) return most > kMostOfTurn ? EdgeKind::kMayGoOn : EdgeKind::kSmooth;
     const float corners = angle(normal(next(next(c))), normal(next(next(d))));
     return least > kMostOfTurn || turn >= kLeastOfCorners * corners ? EdgeKind::kCrease : EdgeKind::kSmooth;
   }
@@ -226,7 +223,7 @@ class Creases {
   std::vector<bool> may_split_;                     // vertices
   std::vector<std::uint32_t> numbers_, triangles_;  // of the chosen triangles, and their vertices
   std::vector<std::uint32_t> opposites_;            // of corners
-  std::vector<Vector> directions_;                  // of triangles
+  std::vector<glm::vec3> directions_;                  // of triangles
   std::vector<std::uint32_t> parents_;              // corners at a vertex that lie on one side
 };
 

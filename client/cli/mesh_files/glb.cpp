@@ -1,9 +1,9 @@
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
 
-#include <algorithm>
-#include <array>
 #include <charconv>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 
 #include "mesh_files/mesh_file.h"
@@ -33,20 +33,17 @@ std::string quoted(const std::string& text) {
 
 // [min], [max] of x, y, z, exactly as they are in the array.
 std::string bounds(const std::vector<float>& positions) {
-  std::array<float, 3> low, high;
-  low.fill(std::numeric_limits<float>::max());
-  high.fill(std::numeric_limits<float>::lowest());
+  glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
   for (std::size_t i = 0; i < positions.size(); i += 3) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], positions[i + axis]);
-      high[axis] = std::max(high[axis], positions[i + axis]);
-    }
+    const glm::vec3 p = {positions[i], positions[i + 1], positions[i + 2]};
+    low = glm::min(low, p);
+    high = glm::max(high, p);
   }
-  const auto list = [](const std::array<float, 3>& corner) {
+  const auto list = [](const glm::vec3& corner) {
     std::string out = "[";
-    for (const float coordinate : corner) {
+    for (int axis = 0; axis < 3; ++axis) {
       char digits[32];
-      out.append(digits, std::to_chars(digits, digits + sizeof(digits), coordinate).ptr);
+      out.append(digits, std::to_chars(digits, digits + sizeof(digits), corner[axis]).ptr);
       out.push_back(',');
     }
     out.back() = ']';

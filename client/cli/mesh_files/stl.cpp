@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <string>
 
@@ -10,21 +11,16 @@
 namespace isofield {
 namespace {
 
-using Vector = std::array<float, 3>;
-
-Vector corner(const Mesh& mesh, std::size_t index) {
+glm::vec3 corner(const Mesh& mesh, std::size_t index) {
   const float* position = &mesh.positions[3 * std::size_t{mesh.triangles[index]}];
   return {position[0], position[1], position[2]};
 }
 
 // (0, 0, 0) for a triangle without area, as the format has it.
-Vector normal_of(const Vector& a, const Vector& b, const Vector& c) {
-  const Vector u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const Vector v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  Vector n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  for (float& component : n) component = length > 0 ? component / length : 0;
-  return n;
+glm::vec3 normal_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::vec3 n = glm::cross(b - a, c - a);
+  const float length = glm::length(n);
+  return length > 0 ? n / length : glm::vec3(0);
 }
 
 }  // namespace
@@ -40,10 +36,10 @@ absl::Status write_stl(const Mesh& mesh, const std::string& unit, OutputFile& fi
   absl::Status status = file.write(header.data(), header.size());
   status.Update(file.write(&count, sizeof(count)));
   for (std::size_t i = 0; status.ok() && i < mesh.triangles.size(); i += 3) {
-    const Vector a = corner(mesh, i);
-    const Vector b = corner(mesh, i + 1);
-    const Vector c = corner(mesh, i + 2);
-    const std::array<Vector, 4> numbers = {normal_of(a, b, c), a, b, c};
+    const glm::vec3 a = corner(mesh, i);
+    const glm::vec3 b = corner(mesh, i + 1);
+    const glm::vec3 c = corner(mesh, i + 2);
+    const std::array<glm::vec3, 4> numbers = {normal_of(a, b, c), a, b, c};
     std::array<char, sizeof(numbers) + 2> facet{};  // two bytes of attributes: 0
     std::memcpy(facet.data(), numbers.data(), sizeof(numbers));
     status = file.write(facet.data(), facet.size());

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 #include <numbers>
+
+#include "render/unit_vector.h"
 
 namespace isofield {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr float kMargin = 1.08f;
-
-Vector to_vector(const std::array<double, 3>& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
 
 // The cosine of an angle in degrees, which is exactly 0 at right angles.
 double cosine(double degrees) {
@@ -27,12 +26,12 @@ struct Extremes {
 };
 
 // The extremes of the positions about `center`, in axes parallel to the camera's.
-Extremes extremes_of(std::span<const float> positions, const Camera& camera, const Vector& center, float tan_x,
+Extremes extremes_of(std::span<const float> positions, const Camera& camera, const glm::vec3& center, float tan_x,
                      float tan_y) {
   Extremes most;
   for (std::size_t i = 0; i < positions.size(); i += 3) {
-    const Vector p = Vector{positions[i], positions[i + 1], positions[i + 2]} - center;
-    const float u = dot(p, camera.right), v = dot(p, camera.up), w = dot(p, camera.back);
+    const glm::vec3 p = glm::vec3{positions[i], positions[i + 1], positions[i + 2]} - center;
+    const float u = glm::dot(p, camera.right), v = glm::dot(p, camera.up), w = glm::dot(p, camera.back);
     most.right = std::max(most.right, u + w * tan_x);
     most.left = std::max(most.left, -u + w * tan_x);
     most.up = std::max(most.up, v + w * tan_y);
@@ -47,13 +46,14 @@ Extremes extremes_of(std::span<const float> positions, const Camera& camera, con
 // inside the picture of a camera at (cx, cy, d) when |u - cx| <= (d - w) tan_x / margin, and alike for v: two linear
 // bounds on d and cx each, whose extremes over the points give the nearest camera.
 void place_camera(std::span<const float> positions, const View& view, Camera& camera) {
-  Vector low = {positions[0], positions[1], positions[2]};
-  Vector high = low;
+  glm::vec3 low = {positions[0], positions[1], positions[2]};
+  glm::vec3 high = low;
   for (std::size_t i = 0; i < positions.size(); i += 3) {
-    low = {std::min(low.x, positions[i]), std::min(low.y, positions[i + 1]), std::min(low.z, positions[i + 2])};
-    high = {std::max(high.x, positions[i]), std::max(high.y, positions[i + 1]), std::max(high.z, positions[i + 2])};
+    const glm::vec3 p = {positions[i], positions[i + 1], positions[i + 2]};
+    low = glm::min(low, p);
+    high = glm::max(high, p);
   }
-  const Vector center = view.target ? to_vector(*view.target) : (low + high) * 0.5f;
+  const glm::vec3 center = view.target ? glm::vec3(*view.target) : (low + high) * 0.5f;
   const float tan_x = camera.tan_x / kMargin, tan_y = camera.tan_y / kMargin;
   const Extremes most = extremes_of(positions, camera, center, tan_x, tan_y);
   const float aside = view.target ? 0 : (most.right - most.left) / 2;
@@ -73,7 +73,7 @@ void View::turn_to(double azimuth, double elevation) {
   const double right = cosine(azimuth - 90), front = cosine(azimuth);
   direction = {0 - right * level, 0 - rise, 0 - front * level};
   // In a picture from straight above, the front is at the bottom.
-  up = level == 0 ? std::array{0 - rise * right, 0.0, 0 - rise * front} : std::array{0.0, 1.0, 0.0};
+  up = level == 0 ? glm::dvec3(0 - rise * right, 0, 0 - rise * front) : glm::dvec3(0, 1, 0);
 }
 
 View View::from(double azimuth, double elevation) {
@@ -84,9 +84,9 @@ View View::from(double azimuth, double elevation) {
 
 Camera fit_camera(std::span<const float> positions, const View& view, double aspect) {
   Camera camera;
-  camera.back = normalize(to_vector(view.direction)) * -1;
-  camera.right = normalize(cross(to_vector(view.up), camera.back));
-  camera.up = cross(camera.back, camera.right);
+  camera.back = -unit_vector(glm::vec3(view.direction));
+  camera.right = unit_vector(glm::cross(glm::vec3(view.up), camera.back));
+  camera.up = glm::cross(camera.back, camera.right);
   const double tangent = std::tan(view.field_of_view / 2 * kRadians);
   camera.tan_x = static_cast<float>(tangent * std::max(1.0, aspect));
   camera.tan_y = static_cast<float>(tangent * std::max(1.0, 1 / aspect));

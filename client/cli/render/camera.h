@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 
-#include "render/vector.h"
 
 namespace isofield {
 
@@ -17,15 +17,15 @@ struct View {
   void turn_to(double azimuth, double elevation);
 
   // The direction in which the camera looks, of any length but 0.
-  std::array<double, 3> direction = from(35, 20).direction;
+  glm::dvec3 direction = from(35, 20).direction;
   // The direction that is upwards in the picture; not parallel to `direction`.
-  std::array<double, 3> up = {0, 1, 0};
+  glm::dvec3 up = {0, 1, 0};
   // Degrees, within [1, 150]: the whole opening angle along the picture's shorter edge. Some perspective, little
   // distortion.
   double field_of_view = 28;
   // The point that the camera looks at, and its distance from the camera. Where they are left out, they are chosen so
   // that the model fills the picture.
-  std::optional<std::array<double, 3>> target;
+  std::optional<glm::dvec3> target;
   std::optional<double> distance;
 
   bool operator==(const View&) const = default;
@@ -33,18 +33,18 @@ struct View {
 
 // A perspective camera. Camera space: x right, y up, z towards the viewer; the camera looks along -z from its origin.
 struct Camera {
-  Vector right, up, back;      // unit axes of camera space in model space
-  Vector target;               // model space
-  float distance = 1;          // from the target
-  float tan_x = 1, tan_y = 1;  // of half the opening angles
-  float near = 0, far = 1;     // distances along the view that enclose what is seen of the model; 0 <= near < far
+  glm::vec3 right{}, up{}, back{};  // unit axes of camera space in model space
+  glm::vec3 target{};               // model space
+  float distance = 1;               // from the target
+  float tan_x = 1, tan_y = 1;       // of half the opening angles
+  float near = 0, far = 1;          // distances along the view that enclose what is seen of the model; 0 <= near < far
 
-  Vector to_camera(const Vector& position) const {
-    const Vector p = position - target;
-    return {dot(p, right), dot(p, up), dot(p, back) - distance};
+  glm::vec3 to_camera(const glm::vec3& position) const {
+    const glm::vec3 p = position - target;
+    return {glm::dot(p, right), glm::dot(p, up), glm::dot(p, back) - distance};
   }
-  Vector turn_to_camera(const Vector& direction) const {
-    return {dot(direction, right), dot(direction, up), dot(direction, back)};
+  glm::vec3 turn_to_camera(const glm::vec3& direction) const {
+    return {glm::dot(direction, right), glm::dot(direction, up), glm::dot(direction, back)};
   }
 };
 

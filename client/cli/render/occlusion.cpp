@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/vec2.hpp>
 #include <numbers>
 
 #include "render/bands.h"
@@ -35,8 +37,8 @@ class Occlusion {
     const std::size_t sample = index(x, y);
     const float inverse_depth = seen_.inverse_depth[sample];
     if (inverse_depth == 0) return 1;
-    const Vector p = position(x, y, inverse_depth);
-    const Vector n = seen_.normal(sample);
+    const glm::vec3 p = position(x, y, inverse_depth);
+    const glm::vec3 n = seen_.normal(sample);
     const float reach = std::min(radius_ * inverse_depth / step_x_, 0.25f * static_cast<float>(seen_.width));
     if (reach < 1) return 1;
     const int rotation = (y % kPattern) * kPattern + x % kPattern;
@@ -48,9 +50,9 @@ class Occlusion {
       if (sx < 0 || sy < 0 || sx >= seen_.width || sy >= seen_.height) continue;
       const float other = seen_.inverse_depth[index(sx, sy)];
       if (other == 0) continue;
-      const Vector v = position(sx, sy, other) - p;
-      const float distance2 = dot(v, v);
-      const float height = dot(v, n) - 0.02f * radius_;
+      const glm::vec3 v = position(sx, sy, other) - p;
+      const float distance2 = glm::dot(v, v);
+      const float height = glm::dot(v, n) - 0.02f * radius_;
       if (height <= 0 || distance2 >= radius_ * radius_) continue;
       const float fade = 1 - distance2 / (radius_ * radius_);
       occluded += fade * height * radius_ / (distance2 + 0.01f * radius_ * radius_);
@@ -62,7 +64,7 @@ class Occlusion {
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(seen_.width) + static_cast<std::size_t>(x);
   }
-  Vector position(int x, int y, float inverse_depth) const {
+  glm::vec3 position(int x, int y, float inverse_depth) const {
     const float depth = 1 / inverse_depth;
     return {(static_cast<float>(x - seen_.width / 2) + 0.5f) * step_x_ * depth,
             (static_cast<float>(seen_.height / 2 - y) - 0.5f) * step_y_ * depth, -depth};
@@ -70,7 +72,7 @@ class Occlusion {
 
   const Visibility& seen_;
   const float radius_, step_x_, step_y_;
-  std::array<std::array<float, 2>, kSamples * kPattern * kPattern> spiral_;
+  std::array<glm::vec2, kSamples * kPattern * kPattern> spiral_;
 };
 
 // Averages over squares of kPattern, leaving out what lies at another depth.

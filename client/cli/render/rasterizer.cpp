@@ -5,6 +5,7 @@
 #include <span>
 
 #include "render/bands.h"
+#include "render/unit_vector.h"
 
 namespace isofield {
 namespace {
@@ -16,7 +17,7 @@ constexpr float kNearest = 1e-3f;
 // space. inverse_depth is 0 where the vertex is too near to be drawn.
 struct Corner {
   float x = 0, y = 0, inverse_depth = 0;
-  Vector normal;
+  glm::vec3 normal{};
 };
 
 // Round x up or down to a whole number, within [0, most] and [-1, most]. x may be far outside of the picture, where a
@@ -36,7 +37,7 @@ std::vector<Corner> project(const Mesh& mesh, const Camera& camera, int width, i
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const float* position = &mesh.positions[3 * i];
     const float* normal = &mesh.normals[3 * i];
-    const Vector p = camera.to_camera({position[0], position[1], position[2]});
+    const glm::vec3 p = camera.to_camera({position[0], position[1], position[2]});
     if (!(-p.z >= nearest)) continue;
     const float inverse_depth = -1 / p.z;
     corners[i] = {0.5f * static_cast<float>(width) + p.x * inverse_depth * scale_x,
@@ -78,7 +79,7 @@ class Painter {
             static_cast<std::size_t>(y) * static_cast<std::size_t>(seen_.width) + static_cast<std::size_t>(x);
         if (inverse_depth <= seen_.inverse_depth[sample]) continue;
         seen_.inverse_depth[sample] = inverse_depth;
-        const Vector normal = normalize(a.normal * of_a + b.normal * of_b + c.normal * of_c);
+        const glm::vec3 normal = unit_vector(a.normal * of_a + b.normal * of_b + c.normal * of_c);
         seen_.normals[2 * sample] = pack(normal.x);
         seen_.normals[2 * sample + 1] = pack(normal.y);
       }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +18,7 @@ struct Visibility {
   // x and y of the unit normal in camera space, each scaled to 16 bits with sign; z is positive and follows.
   std::vector<std::int16_t> normals;
 
-  Vector normal(std::size_t sample) const {
+  glm::vec3 normal(std::size_t sample) const {
     const float x = static_cast<float>(normals[2 * sample]) / 32767;
     const float y = static_cast<float>(normals[2 * sample + 1]) / 32767;
     return {x, y, std::sqrt(std::max(0.0f, 1 - x * x - y * y))};

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <glm/common.hpp>
 
 #include "render/bands.h"
 #include "render/occlusion.h"
 #include "render/rasterizer.h"
+#include "render/unit_vector.h"
 
 namespace isofield {
 namespace {
@@ -17,28 +20,28 @@ namespace {
 constexpr int kSupersampling = 2;
 
 // Linear light.
-constexpr Vector kSurface = {0.72f, 0.21f, 0.075f};
-constexpr Vector kBackgroundTop = {0.93f, 0.945f, 0.965f};
-constexpr Vector kBackgroundBottom = {0.52f, 0.58f, 0.66f};
-constexpr Vector kSkyLight = {0.46f, 0.52f, 0.62f};
-constexpr Vector kGroundLight = {0.17f, 0.14f, 0.13f};
+constexpr glm::vec3 kSurface = {0.72f, 0.21f, 0.075f};
+constexpr glm::vec3 kBackgroundTop = {0.93f, 0.945f, 0.965f};
+constexpr glm::vec3 kBackgroundBottom = {0.52f, 0.58f, 0.66f};
+constexpr glm::vec3 kSkyLight = {0.46f, 0.52f, 0.62f};
+constexpr glm::vec3 kGroundLight = {0.17f, 0.14f, 0.13f};
 
 // Directions to the lights in camera space: they turn with the viewer, so that every view is lit alike.
 struct Light {
-  Vector direction;
-  Vector color;
+  glm::vec3 direction;
+  glm::vec3 color;
 };
-const std::array<Light, 3> kLights = {{{normalize({-0.5f, 0.75f, 0.62f}), {1.05f, 1.00f, 0.92f}},
-                                       {normalize({0.85f, 0.10f, 0.45f}), {0.22f, 0.26f, 0.34f}},
-                                       {normalize({0.25f, 0.55f, -0.85f}), {0.50f, 0.54f, 0.60f}}}};
+const std::array<Light, 3> kLights = {{{unit_vector({-0.5f, 0.75f, 0.62f}), {1.05f, 1.00f, 0.92f}},
+                                       {unit_vector({0.85f, 0.10f, 0.45f}), {0.22f, 0.26f, 0.34f}},
+                                       {unit_vector({0.25f, 0.55f, -0.85f}), {0.50f, 0.54f, 0.60f}}}};
 // Of the distance between the nearest and the farthest point: how far the background shows through the farthest.
 constexpr float kHaze = 0.15f;
 // Of the model's extent.
 constexpr float kOcclusionReach = 0.06f;
 
-Vector background(int y, int height) {
+glm::vec3 background(int y, int height) {
   const float t = (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
-  return mix(kBackgroundTop, kBackgroundBottom, t * t);
+  return glm::mix(kBackgroundTop, kBackgroundBottom, t * t);
 }
 
 float power32(float x) {
@@ -47,18 +50,18 @@ float power32(float x) {
 }
 
 // `view`: unit vector from the surface to the camera; camera space, like `normal`.
-Vector shade(const Vector& normal, const Vector& view, float sky_seen) {
-  Vector light = mix(kGroundLight, kSkyLight, 0.5f + 0.5f * normal.y) * sky_seen;
+glm::vec3 shade(const glm::vec3& normal, const glm::vec3& view, float sky_seen) {
+  glm::vec3 light = glm::mix(kGroundLight, kSkyLight, 0.5f + 0.5f * normal.y) * sky_seen;
   float glint = 0;
   for (const Light& source : kLights) {
-    const float facing = dot(normal, source.direction);
+    const float facing = glm::dot(normal, source.direction);
     if (facing <= 0) continue;
-    light = light + source.color * (facing * (0.55f + 0.45f * sky_seen));
-    glint += source.color.y * power32(std::max(0.0f, dot(normal, normalize(source.direction + view))));
+    light += source.color * (facing * (0.55f + 0.45f * sky_seen));
+    glint += source.color.y * power32(std::max(0.0f, glm::dot(normal, unit_vector(source.direction + view))));
   }
-  const float grazing = 1 - std::max(0.0f, dot(normal, view));
+  const float grazing = 1 - std::max(0.0f, glm::dot(normal, view));
   const float rim = grazing * grazing * grazing * 0.22f * sky_seen;
-  const Vector white = {1, 1, 1};
+  const glm::vec3 white = {1, 1, 1};
   return kSurface * light * 0.9f + white * (0.16f * glint * sky_seen) + kSkyLight * rim;
 }
 
@@ -100,15 +103,15 @@ Visibility thin_out(const Visibility& seen) {
   return out;
 }
 
-Vector shade_sample(const Visibility& seen, std::size_t sample, int x, int y, const Camera& camera, float sky_seen,
-                    const Vector& behind) {
+glm::vec3 shade_sample(const Visibility& seen, std::size_t sample, int x, int y, const Camera& camera, float sky_seen,
+                    const glm::vec3& behind) {
   const float inverse_depth = seen.inverse_depth[sample];
   if (inverse_depth == 0) return behind;
   const float to_x = (2 * (static_cast<float>(x) + 0.5f) / static_cast<float>(seen.width) - 1) * camera.tan_x;
   const float to_y = (1 - 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(seen.height)) * camera.tan_y;
-  const Vector color = shade(seen.normal(sample), normalize({-to_x, -to_y, 1}), sky_seen);
+  const glm::vec3 color = shade(seen.normal(sample), unit_vector({-to_x, -to_y, 1}), sky_seen);
   const float away = (1 / inverse_depth - camera.near) / std::max(camera.far - camera.near, 1e-30f);
-  return mix(color, behind, kHaze * std::clamp(away, 0.0f, 1.0f) * std::clamp(away, 0.0f, 1.0f));
+  return glm::mix(color, behind, kHaze * std::clamp(away, 0.0f, 1.0f) * std::clamp(away, 0.0f, 1.0f));
 }
 
 Image paint(const Visibility& seen, const std::vector<float>& sky_seen, const Camera& camera, int width, int height) {
@@ -117,7 +120,7 @@ Image paint(const Visibility& seen, const std::vector<float>& sky_seen, const Ca
   image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for_each_band(height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
-      const Vector behind = background(y, height);
+      const glm::vec3 behind = background(y, height);
       std::uint8_t* out = &image.rgb[3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
       for (int x = 0; x < width; ++x) {
         const float sky = sky_seen.empty() ? 1 : sky_seen[static_cast<std::size_t>(y) * width + x];
@@ -127,7 +130,7 @@ Image paint(const Visibility& seen, const std::vector<float>& sky_seen, const Ca
           const int sy = y * kSupersampling + i / kSupersampling;
           const std::size_t sample =
               static_cast<std::size_t>(sy) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(sx);
-          const Vector color =
+          const glm::vec3 color =
               seen.inverse_depth.empty() ? behind : shade_sample(seen, sample, sx, sy, camera, sky, behind);
           // Averaged as bytes of sRGB, which keeps edges between light and dark even to the eye.
           sum[0] += srgb(color.x);

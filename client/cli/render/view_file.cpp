@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "isofield/scene_file.h"
@@ -32,7 +33,7 @@ bool read_number(const Value& value, double& out) {
   return value.has_number_value() && std::isfinite(out);
 }
 
-bool read_vector(const Value& value, std::array<double, 3>& out) {
+bool read_vector(const Value& value, glm::dvec3& out) {
   if (value.list_value().values_size() != 3) return false;
   for (int i = 0; i < 3; ++i) {
     if (!read_number(value.list_value().values(i), out[i])) return false;
@@ -74,25 +75,25 @@ absl::StatusOr<View> read_view(const Struct& object) {
   return view;
 }
 
-double length(const std::array<double, 3>& v) {
-  return std::hypot(v[0], v[1], v[2]);
+std::vector<double> list(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
 }
 
 }  // namespace
 
 std::string view_fault(const View& view) {
   constexpr double kMost = 1e30;
-  const auto& [dx, dy, dz] = view.direction;
-  const auto& [ux, uy, uz] = view.up;
   for (const auto& [name, vector] : {std::pair("direction", view.direction), std::pair("up", view.up)}) {
-    if (!(length(vector) > 1e-30 && length(vector) < kMost)) {
-      return absl::StrCat(name, " = [", absl::StrJoin(vector, ", "), "]: expected a direction of any length but 0");
+    if (!(glm::length(vector) > 1e-30 && glm::length(vector) < kMost)) {
+      return absl::StrCat(name, " = [", absl::StrJoin(list(vector), ", "),
+                          "]: expected a direction of any length but 0");
     }
   }
-  const double across = length({dy * uz - dz * uy, dz * ux - dx * uz, dx * uy - dy * ux});
-  if (!(across > 1e-6 * length(view.direction) * length(view.up))) {
-    return absl::StrCat("up = [", absl::StrJoin(view.up, ", "), "]: expected a direction that is not parallel to the "
-                        "view's, [", absl::StrJoin(view.direction, ", "), "]");
+  const double across = glm::length(glm::cross(view.direction, view.up));
+  if (!(across > 1e-6 * glm::length(view.direction) * glm::length(view.up))) {
+    return absl::StrCat("up = [", absl::StrJoin(list(view.up), ", "),
+                        "]: expected a direction that is not parallel to the view's, [",
+                        absl::StrJoin(list(view.direction), ", "), "]");
   }
   if (!(view.field_of_view >= 1 && view.field_of_view <= 150)) {
     return absl::StrCat("field_of_view = ", view.field_of_view, ": expected degrees within [1, 150]");
@@ -121,9 +122,8 @@ absl::StatusOr<std::optional<View>> read_view_file(const std::string& path) {
 }
 
 absl::Status write_view_file(const std::string& path, const View& view) {
-  const auto list = [](const std::array<double, 3>& v) { return std::vector<double>(v.begin(), v.end()); };
   JsonObject object;
-  object.set("target", list(view.target.value_or(std::array<double, 3>{})))
+  object.set("target", list(view.target.value_or(glm::dvec3(0))))
       .set("distance", view.distance.value_or(1))
       .set("direction", list(view.direction))
       .set("up", list(view.up))

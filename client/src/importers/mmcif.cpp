@@ -92,9 +92,13 @@ class AtomTable {
     return name.empty() ? value(row, archive) : name;
   }
 
-  static bool read_center(const Row& row, std::array<double, 3>& center) {
+  static bool read_center(const Row& row, glm::dvec3& center) {
     center = {gemmi::cif::as_number(row[kX]), gemmi::cif::as_number(row[kY]), gemmi::cif::as_number(row[kZ])};
-    return std::all_of(center.begin(), center.end(), [](double c) { return std::abs(c) <= kLargestLength; });
+    // An unreadable coordinate is NaN.
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(std::abs(center[axis]) <= kLargestLength)) return false;
+    }
+    return true;
   }
 
   AtomSource source_of(const Row& row, std::size_t index) const {

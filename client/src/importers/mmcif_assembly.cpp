@@ -32,15 +32,7 @@ bool expand_list(absl::string_view list, std::vector<std::string>& names) {
 }
 
 RigidMotion product(const RigidMotion& a, const RigidMotion& b) {
-  RigidMotion result;
-  for (int i = 0; i < 3; ++i) {
-    result.shift[i] = a.shift[i];
-    for (int k = 0; k < 3; ++k) {
-      result.shift[i] += a.rotation[i][k] * b.shift[k];
-      for (int j = 0; j < 3; ++j) result.rotation[i][j] += a.rotation[i][k] * b.rotation[k][j];
-    }
-  }
-  return result;
+  return {a.rotation * b.rotation, a(b.shift)};
 }
 
 Motions read_motions(gemmi::cif::Block& block) {
@@ -53,7 +45,7 @@ Motions read_motions(gemmi::cif::Block& block) {
   for (const auto row : block.find("_pdbx_struct_oper_list.", tags)) {
     RigidMotion motion;
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) motion.rotation[i][j] = gemmi::cif::as_number(row[1 + 4 * i + j]);
+      for (int j = 0; j < 3; ++j) motion.rotation[j][i] = gemmi::cif::as_number(row[1 + 4 * i + j]);
       motion.shift[i] = gemmi::cif::as_number(row[4 + 4 * i]);
     }
     motions.emplace(row.str(0), motion);

@@ -6,6 +6,7 @@
 #include <absl/strings/str_cat.h>
 
 #include <cmath>
+#include <glm/matrix.hpp>
 
 #include "importers/import_options.h"
 #include "importers/import_report.h"
@@ -34,23 +35,14 @@ std::string node_name(const MoleculeAtom& atom, int copy) {
   return name;
 }
 
-std::array<double, 3> moved(const RigidMotion& motion, const std::array<double, 3>& center) {
-  std::array<double, 3> result = motion.shift;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) result[i] += motion.rotation[i][j] * center[j];
-  }
-  return result;
-}
-
 bool is_rigid(const RigidMotion& motion) {
   // Files state matrices with at least six decimals.
   constexpr double kTolerance = 0.01;
+  const glm::dmat3 product = motion.rotation * glm::transpose(motion.rotation);
   for (int i = 0; i < 3; ++i) {
     if (!std::isfinite(motion.shift[i])) return false;
     for (int j = 0; j < 3; ++j) {
-      double product = 0;
-      for (int k = 0; k < 3; ++k) product += motion.rotation[i][k] * motion.rotation[j][k];
-      if (!(std::abs(product - (i == j)) < kTolerance)) return false;
+      if (!(std::abs(product[i][j] - (i == j)) < kTolerance)) return false;
     }
   }
   return true;
@@ -60,7 +52,7 @@ class AtomAdder {
  public:
   AtomAdder(const ImportOptions& options, Imported& imported) : options_(options), imported_(imported) {}
 
-  void add(const MoleculeAtom& atom, const std::array<double, 3>& center, int copy) {
+  void add(const MoleculeAtom& atom, const glm::dvec3& center, int copy) {
     v1::Node& node = add_atom(atom.element, center, atom.source, options_, imported_);
     std::string name = node_name(atom, copy);
     if (!name.empty() && names_.insert(name).second) node.set_name(std::move(name));
@@ -104,7 +96,7 @@ absl::Status add_assembly(const Assembly& assembly, const Atoms& atoms, AtomAdde
       }
       for (const absl::string_view chain : chains) {
         const int copy = ++copies[chain];
-        for (const MoleculeAtom* atom : by_chain[chain]) adder.add(*atom, moved(motion, atom->center), copy);
+        for (const MoleculeAtom* atom : by_chain[chain]) adder.add(*atom, motion(atom->center), copy);
       }
     }
   }
@@ -118,7 +110,7 @@ absl::Status add_assembly(const Assembly& assembly, const Atoms& atoms, AtomAdde
 
 }  // namespace
 
-v1::Node& add_atom(const Element* element, const std::array<double, 3>& center, const AtomSource& source,
+v1::Node& add_atom(const Element* element, const glm::dvec3& center, const AtomSource& source,
                    const ImportOptions& options, Imported& imported) {
   double radius = element ? element->radius : 0;
   if (radius == 0) {
@@ -128,7 +120,7 @@ v1::Node& add_atom(const Element* element, const std::array<double, 3>& center, 
   }
   v1::Node& node = *imported.scene.add_nodes();
   v1::Sphere& sphere = *node.mutable_sphere();
-  for (const double coordinate : center) sphere.add_center(coordinate);
+  for (int axis = 0; axis < 3; ++axis) sphere.add_center(center[axis]);
   sphere.set_radius(radius);
   sphere.set_range(range_of(options, kRangeFactor, radius));
   return node;

@@ -4,7 +4,8 @@
 #include <absl/status/statusor.h>
 #include <absl/strings/string_view.h>
 
-#include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct AtomSource {
 
 // Adds a van der Waals sphere; notes an element that is unknown (null) or has no radius. Returns the new node, still
 // without a name.
-v1::Node& add_atom(const Element* element, const std::array<double, 3>& center, const AtomSource& source,
+v1::Node& add_atom(const Element* element, const glm::dvec3& center, const AtomSource& source,
                    const ImportOptions& options, Imported& imported);
 
 // Returns true and notes it where the element is hydrogen and ImportOptions::keep_hydrogens is false.
@@ -32,7 +33,7 @@ bool leave_out_hydrogen(const Element* element, const AtomSource& source, const 
 struct MoleculeAtom {
   // Null where it is unknown.
   const Element* element = nullptr;
-  std::array<double, 3> center{};
+  glm::dvec3 center{};
   absl::string_view chain;
   // The name by which assemblies refer to the chain. In PDB it is `chain`; in mmCIF it is label_asym_id, of which a
   // chain may have several.
@@ -49,10 +50,14 @@ struct MoleculeAtom {
   AtomSource source{};
 };
 
-// A rotation followed by a shift in angstrom.
+// A rotation followed by a shift in angstrom. Of the matrix, rotation[i] is column i.
 struct RigidMotion {
-  std::array<std::array<double, 3>, 3> rotation{};
-  std::array<double, 3> shift{};
+  glm::dmat3 rotation{};
+  glm::dvec3 shift{};
+
+  glm::dvec3 operator()(const glm::dvec3& point) const {
+    return shift + point.x * rotation[0] + point.y * rotation[1] + point.z * rotation[2];
+  }
 };
 
 // The copies of chains that make a biological assembly.

@@ -13,7 +13,7 @@ namespace {
 RigidMotion rigid_motion(const gemmi::Transform& transform) {
   RigidMotion motion;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) motion.rotation[i][j] = transform.mat[i][j];
+    for (int j = 0; j < 3; ++j) motion.rotation[j][i] = transform.mat[i][j];
     motion.shift[i] = transform.vec.at(i);
   }
   return motion;

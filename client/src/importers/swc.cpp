@@ -55,7 +55,7 @@ absl::Status import_swc(const std::string& text, const ImportOptions& options, I
   report.format = "neuron (SWC)";
   // By the rule of NeuroMorpho's archive; the format itself states none.
   imported.scene.set_unit("um");
-  const Vector3 scale = read_swc_scale(text, options.apply_scale, report);
+  const glm::dvec3 scale = read_swc_scale(text, options.apply_scale, report);
   std::vector<SwcSample> samples = read_swc_samples(text, scale, report);
   if (samples.empty()) return absl::InvalidArgumentError("no usable line \"id type x y z radius parent\"");
   link_parents(samples, report);

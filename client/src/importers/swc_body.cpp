@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "importers/import_options.h"
 #include "importers/swc_pieces.h"
@@ -12,11 +13,12 @@
 namespace isofield {
 namespace {
 
-void set(const Vector3& from, google::protobuf::RepeatedField<double>& to) {
-  to.Assign(from.begin(), from.end());
+void set(const glm::dvec3& from, google::protobuf::RepeatedField<double>& to) {
+  to.Clear();
+  for (int axis = 0; axis < 3; ++axis) to.Add(from[axis]);
 }
 
-Solid ball(const Vector3& center, double radius) {
+Solid ball(const glm::dvec3& center, double radius) {
   Solid solid;
   solid.a = solid.b = center;
   solid.radius_a = solid.radius_b = radius;
@@ -39,8 +41,8 @@ double third_axis(const Contour& contour) {
 Solid ellipsoid(const Contour& contour) {
   Solid solid = ball({}, 1);
   solid.origin = contour.center;
-  solid.to_local = {scale(contour.major, 1 / contour.major_length), scale(contour.minor, 1 / contour.minor_length),
-                    scale(contour.normal, 1 / third_axis(contour))};
+  solid.to_local = {1 / contour.major_length * contour.major, 1 / contour.minor_length * contour.minor,
+                    1 / third_axis(contour) * contour.normal};
   return solid;
 }
 
@@ -52,25 +54,25 @@ Solid hull(const ContourStack& stack, std::size_t below) {
 }
 
 // Adds a transform that places the last node of the scene. `axes` and `origin` are the columns of its matrix.
-void add_transform(const std::array<Vector3, 3>& axes, const Vector3& origin, v1::Scene& scene) {
+void add_transform(const std::array<glm::dvec3, 3>& axes, const glm::dvec3& origin, v1::Scene& scene) {
   const std::string child = absl::StrCat("#", scene.nodes_size() - 1);
   v1::Transform& transform = *scene.add_nodes()->mutable_transform();
   transform.set_child(child);
   for (int row = 0; row < 3; ++row) {
-    for (const Vector3& axis : axes) transform.add_matrix(axis[row]);
+    for (const glm::dvec3& axis : axes) transform.add_matrix(axis[row]);
     transform.add_matrix(origin[row]);
   }
 }
 
 // Clamps the range of a shape below a transform with these axes. The server limits lengths before and after the
 // transform, and rounds them.
-double range_within(const std::array<Vector3, 3>& axes, double range) {
-  const auto [least, most] = std::minmax({1.0, length(axes[0]), length(axes[1]), length(axes[2])});
+double range_within(const std::array<glm::dvec3, 3>& axes, double range) {
+  const auto [least, most] = std::minmax({1.0, glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
   return std::clamp(range, 2 * kLeastLength / least, kLargestLength / (2 * most));
 }
 
 // The index of the coordinate axis that a unit vector lies along, but for rounding; 3 where it lies along none.
-std::size_t axis_of(const Vector3& unit) {
+std::size_t axis_of(const glm::dvec3& unit) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (std::abs(unit[axis]) > 1 - 1e-12) return axis;
   }
@@ -81,10 +83,10 @@ void add_ellipsoid(const Contour& contour, const ImportOptions& options, v1::Sce
   v1::Ellipsoid& shape = *scene.add_nodes()->mutable_ellipsoid();
   const double range = range_of(options, kSwcRangeFactor, contour.minor_length);
   shape.set_range(range);
-  Vector3 lengths = {contour.major_length, contour.minor_length, third_axis(contour)};
+  glm::dvec3 lengths = {contour.major_length, contour.minor_length, third_axis(contour)};
   const std::size_t major = axis_of(contour.major), minor = axis_of(contour.minor);
   if (major < 3 && minor < 3) {
-    Vector3 placed{};
+    glm::dvec3 placed{};
     placed[major] = lengths[0];
     placed[minor] = lengths[1];
     placed[3 - major - minor] = lengths[2];
@@ -93,7 +95,7 @@ void add_ellipsoid(const Contour& contour, const ImportOptions& options, v1::Sce
     return;
   }
   set(lengths, *shape.mutable_semi_axes());
-  const std::array<Vector3, 3> axes = {contour.major, contour.minor, contour.normal};
+  const std::array<glm::dvec3, 3> axes = {contour.major, contour.minor, contour.normal};
   shape.set_range(range_within(axes, range));
   add_transform(axes, contour.center, scene);
 }
@@ -112,7 +114,7 @@ void add_hull(const ContourStack& stack, std::size_t below, const ImportOptions&
 
 // True where centres and radii of two balls differ by no more than a hundredth of the radius.
 bool is_same(const ContourStack::Ball& a, const ContourStack::Ball& b) {
-  return distance(a.center, b.center) + std::abs(a.radius - b.radius) <= 0.01 * a.radius;
+  return glm::distance(a.center, b.center) + std::abs(a.radius - b.radius) <= 0.01 * a.radius;
 }
 
 void add_stack(const Soma& soma, const std::vector<SwcSample>& samples, const ImportOptions& options,
@@ -129,16 +131,16 @@ void add_stack(const Soma& soma, const std::vector<SwcSample>& samples, const Im
 }
 
 // The index of the lower one of the two contours between which a point lies, or of the two nearest ones.
-std::size_t contour_below(const Soma& soma, const Vector3& point) {
-  const Vector3 normal = soma.contours.front().normal;
+std::size_t contour_below(const Soma& soma, const glm::dvec3& point) {
+  const glm::dvec3 normal = soma.contours.front().normal;
   const auto above = std::upper_bound(
-      soma.contours.begin(), soma.contours.end(), dot(normal, point),
-      [&](double depth, const Contour& contour) { return depth < dot(normal, contour.center); });
+      soma.contours.begin(), soma.contours.end(), glm::dot(normal, point),
+      [&](double depth, const Contour& contour) { return depth < glm::dot(normal, contour.center); });
   const auto index = std::max<std::ptrdiff_t>(1, above - soma.contours.begin()) - 1;
   return std::min(static_cast<std::size_t>(index), soma.contours.size() - 2);
 }
 
-Joint join_contours(const Soma& soma, const Vector3& outer) {
+Joint join_contours(const Soma& soma, const glm::dvec3& outer) {
   Joint joint;
   if (soma.contours.size() == 1) {
     joint.target = soma.contours.front().center;
@@ -149,10 +151,10 @@ Joint join_contours(const Soma& soma, const Vector3& outer) {
   const std::size_t i = contour_below(soma, outer);
   const Contour& below = soma.contours[i];
   const Contour& above = soma.contours[i + 1];
-  const Vector3 step = subtract(above.center, below.center);
-  const double rise = dot(below.normal, step);
-  const double part = dot(below.normal, subtract(outer, below.center)) / rise;
-  joint.target = between(below.center, above.center, std::clamp(part, 0.0, 1.0));
+  const glm::dvec3 step = above.center - below.center;
+  const double rise = glm::dot(below.normal, step);
+  const double part = glm::dot(below.normal, outer - below.center) / rise;
+  joint.target = below.center + std::clamp(part, 0.0, 1.0) * step;
   joint.width = std::max(below.minor_length, above.minor_length);
   joint.solids = {hull(soma.stack, i)};
   return joint;
@@ -160,40 +162,41 @@ Joint join_contours(const Soma& soma, const Vector3& outer) {
 
 }  // namespace
 
-Vector3 Solid::local(const Vector3& point) const {
-  const Vector3 arm = subtract(point, origin);
-  return {dot(to_local[0], arm), dot(to_local[1], arm), dot(to_local[2], arm)};
+glm::dvec3 Solid::local(const glm::dvec3& point) const {
+  const glm::dvec3 arm = point - origin;
+  return {glm::dot(to_local[0], arm), glm::dot(to_local[1], arm), glm::dot(to_local[2], arm)};
 }
 
-bool Solid::contains(const Vector3& point) const {
+bool Solid::contains(const glm::dvec3& point) const {
   // Points on the surface count as inside, whatever their rounding.
   constexpr double kTolerance = 1 + 1e-9;
-  const Vector3 p = local(point), axis = subtract(b, a);
-  const double height = length(axis), slope = height > 0 ? (radius_b - radius_a) / height : 0;
+  const glm::dvec3 p = local(point), axis = b - a;
+  const double height = glm::length(axis), slope = height > 0 ? (radius_b - radius_a) / height : 0;
   // The hull is a single ball where one of the balls contains the other.
   if (!(height > 0) || std::abs(slope) >= 1) {
-    return distance(p, radius_a >= radius_b ? a : b) <= std::max(radius_a, radius_b) * kTolerance;
+    return glm::distance(p, radius_a >= radius_b ? a : b) <= std::max(radius_a, radius_b) * kTolerance;
   }
   // The hull is the union of all balls between the two; t is the place of the one that comes nearest to the point.
-  const double along = dot(subtract(p, a), axis) / height;
-  const double aside = std::sqrt(std::max(0.0, dot(subtract(p, a), subtract(p, a)) - along * along));
+  const double along = glm::dot(p - a, axis) / height;
+  const double aside = std::sqrt(std::max(0.0, glm::dot(p - a, p - a) - along * along));
   const double t = std::clamp((along + aside * slope / std::sqrt(1 - slope * slope)) / height, 0.0, 1.0);
-  return distance(p, between(a, b, t)) <= (radius_a + t * (radius_b - radius_a)) * kTolerance;
+  return glm::distance(p, a + t * axis) <= (radius_a + t * (radius_b - radius_a)) * kTolerance;
 }
 
-bool Joint::contains(const Vector3& point) const {
+bool Joint::contains(const glm::dvec3& point) const {
   return std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) { return solid.contains(point); });
 }
 
-Vector3 Joint::surface(const Vector3& inner, const Vector3& outer) const {
+glm::dvec3 Joint::surface(const glm::dvec3& inner, const glm::dvec3& outer) const {
   if (!contains(inner)) return inner;
   constexpr int kHalvings = 40;
+  const glm::dvec3 step = outer - inner;
   double inside = 0, outside = 1;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (inside + outside) / 2;
-    (contains(between(inner, outer, middle)) ? inside : outside) = middle;
+    (contains(inner + middle * step) ? inside : outside) = middle;
   }
-  return between(inner, outer, inside);
+  return inner + inside * step;
 }
 
 void add_soma(const Soma& soma, const std::vector<SwcSample>& samples, const ImportOptions& options, v1::Scene& scene) {
@@ -208,7 +211,7 @@ void add_soma(const Soma& soma, const std::vector<SwcSample>& samples, const Imp
   }
 }
 
-Joint join_soma(const Somata& somata, int at, const Vector3& outer, const std::vector<SwcSample>& samples) {
+Joint join_soma(const Somata& somata, int at, const glm::dvec3& outer, const std::vector<SwcSample>& samples) {
   const Soma& soma = somata.all[somata.soma_of[at]];
   if (soma.form == SomaForm::kContours) return join_contours(soma, outer);
   const SwcSample& sample = samples[soma.form == SomaForm::kSphere ? soma.members.front() : at];

@@ -11,28 +11,28 @@ namespace isofield {
 
 // The convex hull of two balls after a linear map about an origin. The balls `a` and `b` are in mapped coordinates.
 struct Solid {
-  Vector3 origin{};
+  glm::dvec3 origin{};
   // The rows of the map's matrix, which takes p - origin to the mapped coordinates.
-  std::array<Vector3, 3> to_local = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  Vector3 a{}, b{};
+  std::array<glm::dvec3, 3> to_local = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  glm::dvec3 a{}, b{};
   double radius_a = 0, radius_b = 0;
 
-  Vector3 local(const Vector3& point) const;
-  bool contains(const Vector3& point) const;
+  glm::dvec3 local(const glm::dvec3& point) const;
+  bool contains(const glm::dvec3& point) const;
 };
 
 // Where a process joins a soma.
 struct Joint {
   // The place in the soma that the process leads to.
-  Vector3 target{};
+  glm::dvec3 target{};
   // The parts of the soma near the process, one or two.
   std::vector<Solid> solids;
   // The least radius of a process that is thicker than the soma there; its samples inside the soma are kept.
   double width = 0;
 
-  bool contains(const Vector3& point) const;
+  bool contains(const glm::dvec3& point) const;
   // The point at which the line from `inner` to `outer` leaves the solids; `inner` itself where it is outside already.
-  Vector3 surface(const Vector3& inner, const Vector3& outer) const;
+  glm::dvec3 surface(const glm::dvec3& inner, const glm::dvec3& outer) const;
 };
 
 // Adds the pieces of a soma that is no stack of frusta: a sphere, an ellipsoid, or one hull for each pair of
@@ -42,6 +42,6 @@ void add_soma(const Soma& soma, const std::vector<SwcSample>& samples, const Imp
 
 // The joint of a process that is linked to the soma's sample `at` and whose nearest sample is at `outer`. All samples
 // but those of outlines must have a radius. It costs the same for somata of any size, but for a binary search.
-Joint join_soma(const Somata& somata, int at, const Vector3& outer, const std::vector<SwcSample>& samples);
+Joint join_soma(const Somata& somata, int at, const glm::dvec3& outer, const std::vector<SwcSample>& samples);
 
 }  // namespace isofield

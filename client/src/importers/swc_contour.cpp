@@ -1,8 +1,9 @@
 #include "importers/swc_contour.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <numbers>
 #include <numeric>
 
@@ -22,35 +23,35 @@ constexpr double kLeastRoundnessByAngle = 0.4;
 // 0.64 for a half circle, which is an open arc.
 constexpr double kLargestGap = 0.55;
 
-Vector3 mean(const std::vector<Vector3>& points) {
-  Vector3 sum{};
-  for (const Vector3& point : points) sum = add(sum, point);
-  return scale(sum, 1.0 / static_cast<double>(points.size()));
+glm::dvec3 mean(const std::vector<glm::dvec3>& points) {
+  glm::dvec3 sum{};
+  for (const glm::dvec3& point : points) sum += point;
+  return 1.0 / static_cast<double>(points.size()) * sum;
 }
 
-double mean_distance(const std::vector<Vector3>& points, const Vector3& center) {
+double mean_distance(const std::vector<glm::dvec3>& points, const glm::dvec3& center) {
   double sum = 0;
-  for (const Vector3& point : points) sum += distance(point, center);
+  for (const glm::dvec3& point : points) sum += glm::distance(point, center);
   return sum / static_cast<double>(points.size());
 }
 
 // The normal of the plane through the centre, the point furthest from it and the one that spans the widest triangle
 // with both. Nothing where all points lie on a line.
-std::optional<Vector3> plane_normal(const std::vector<Vector3>& points, const Vector3& center) {
-  const auto by_distance = [&](const Vector3& a, const Vector3& b) {
-    return distance(a, center) < distance(b, center);
+std::optional<glm::dvec3> plane_normal(const std::vector<glm::dvec3>& points, const glm::dvec3& center) {
+  const auto by_distance = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::distance(a, center) < glm::distance(b, center);
   };
-  const Vector3 arm = subtract(*std::max_element(points.begin(), points.end(), by_distance), center);
-  Vector3 normal{};
-  for (const Vector3& point : points) {
-    const Vector3 candidate = cross(arm, subtract(point, center));
-    if (length(candidate) > length(normal)) normal = candidate;
+  const glm::dvec3 arm = *std::max_element(points.begin(), points.end(), by_distance) - center;
+  glm::dvec3 normal{};
+  for (const glm::dvec3& point : points) {
+    const glm::dvec3 candidate = glm::cross(arm, point - center);
+    if (glm::length(candidate) > glm::length(normal)) normal = candidate;
   }
-  if (!(length(normal) > 1e-3 * dot(arm, arm))) return std::nullopt;
-  return scale(normal, 1 / length(normal));
+  if (!(glm::length(normal) > 1e-3 * glm::dot(arm, arm))) return std::nullopt;
+  return 1 / glm::length(normal) * normal;
 }
 
-using Point2 = std::array<double, 2>;
+using Point2 = glm::dvec2;
 
 // Area, perimeter, length of the closing edge, and the first and second moments about the origin of a closed polygon.
 struct Polygon {
@@ -77,11 +78,11 @@ struct Polygon {
 
 // Groups the points into runs of equal depth along the normal, in ascending order. Within a run points keep their
 // order.
-std::vector<std::vector<int>> runs_of_depth(const std::vector<Vector3>& points, const Vector3& normal) {
-  const Vector3 middle = mean(points);
+std::vector<std::vector<int>> runs_of_depth(const std::vector<glm::dvec3>& points, const glm::dvec3& normal) {
+  const glm::dvec3 middle = mean(points);
   const double tolerance = kDepthTolerance * mean_distance(points, middle);
   std::vector<double> depths;
-  for (const Vector3& point : points) depths.push_back(dot(normal, subtract(point, middle)));
+  for (const glm::dvec3& point : points) depths.push_back(glm::dot(normal, point - middle));
   std::vector<int> by_depth(points.size());
   std::iota(by_depth.begin(), by_depth.end(), 0);
   std::stable_sort(by_depth.begin(), by_depth.end(), [&](int a, int b) { return depths[a] < depths[b]; });
@@ -96,7 +97,7 @@ std::vector<std::vector<int>> runs_of_depth(const std::vector<Vector3>& points, 
 
 // Fits a contour to each run. Empty where a run is no outline, or where more than a fifth of the points are in runs of
 // one or two.
-std::vector<Contour> fit_runs(const std::vector<Vector3>& points, const std::vector<std::vector<int>>& runs,
+std::vector<Contour> fit_runs(const std::vector<glm::dvec3>& points, const std::vector<std::vector<int>>& runs,
                               bool in_order) {
   std::vector<Contour> contours;
   std::size_t alone = 0;
@@ -106,7 +107,7 @@ std::vector<Contour> fit_runs(const std::vector<Vector3>& points, const std::vec
       if (5 * alone > points.size()) return {};
       continue;
     }
-    std::vector<Vector3> members;
+    std::vector<glm::dvec3> members;
     for (const int i : run) members.push_back(points[i]);
     auto contour = fit_contour(members, in_order);
     if (!contour) return {};
@@ -118,28 +119,28 @@ std::vector<Contour> fit_runs(const std::vector<Vector3>& points, const std::vec
 
 }  // namespace
 
-std::optional<Contour> fit_contour(const std::vector<Vector3>& points, bool in_order) {
+std::optional<Contour> fit_contour(const std::vector<glm::dvec3>& points, bool in_order) {
   if (points.size() < 3) return std::nullopt;
-  const Vector3 middle = mean(points);
+  const glm::dvec3 middle = mean(points);
   const double extent = mean_distance(points, middle);
   const auto normal = plane_normal(points, middle);
   if (!normal) return std::nullopt;
-  const bool is_flat = std::all_of(points.begin(), points.end(), [&](const Vector3& point) {
-    return std::abs(dot(*normal, subtract(point, middle))) <= kPlaneTolerance * extent;
+  const bool is_flat = std::all_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
+    return std::abs(glm::dot(*normal, point - middle)) <= kPlaneTolerance * extent;
   });
   if (!is_flat) return std::nullopt;
 
   // The points in some frame of the plane, in units of the extent.
   const std::size_t axis = std::abs((*normal)[0]) < 0.6 ? 0 : 1;
-  Vector3 u{};
+  glm::dvec3 u{};
   u[axis] = 1;
-  u = subtract(u, scale(*normal, dot(u, *normal)));
-  u = scale(u, 1 / length(u));
-  const Vector3 v = cross(*normal, u);
+  u -= glm::dot(u, *normal) * *normal;
+  u *= 1 / glm::length(u);
+  const glm::dvec3 v = glm::cross(*normal, u);
   std::vector<Point2> flat;
-  for (const Vector3& point : points) {
-    const Vector3 arm = scale(subtract(point, middle), 1 / extent);
-    flat.push_back({dot(arm, u), dot(arm, v)});
+  for (const glm::dvec3& point : points) {
+    const glm::dvec3 arm = 1 / extent * (point - middle);
+    flat.push_back({glm::dot(arm, u), glm::dot(arm, v)});
   }
   if (!in_order) {
     std::sort(flat.begin(), flat.end(), [](const Point2& a, const Point2& b) {
@@ -169,27 +170,27 @@ std::optional<Contour> fit_contour(const std::vector<Vector3>& points, bool in_o
   size *= extent / static_cast<double>(flat.size());
 
   Contour contour;
-  contour.center = add(middle, add(scale(u, extent * x), scale(v, extent * y)));
-  contour.major = add(scale(u, cosine), scale(v, sine));
-  contour.minor = subtract(scale(v, cosine), scale(u, sine));
+  contour.center = middle + (extent * x * u + extent * y * v);
+  contour.major = cosine * u + sine * v;
+  contour.minor = cosine * v - sine * u;
   contour.normal = *normal;
   contour.major_length = a * size;
   contour.minor_length = b * size;
   return contour;
 }
 
-std::vector<Contour> fit_contours(const std::vector<Vector3>& points, bool in_order) {
+std::vector<Contour> fit_contours(const std::vector<glm::dvec3>& points, bool in_order) {
   if (points.size() < 6) return {};
-  std::vector<Vector3> normals = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+  std::vector<glm::dvec3> normals = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
   // Sections in another direction have the plane that the first points of a contour span.
   for (std::size_t i = 2; i < points.size(); ++i) {
-    const Vector3 a = subtract(points[1], points[0]), b = subtract(points[i], points[0]);
-    const Vector3 normal = cross(a, b);
-    if (!(length(normal) > 1e-2 * length(a) * length(b))) continue;
-    normals.push_back(scale(normal, 1 / length(normal)));
+    const glm::dvec3 a = points[1] - points[0], b = points[i] - points[0];
+    const glm::dvec3 normal = glm::cross(a, b);
+    if (!(glm::length(normal) > 1e-2 * glm::length(a) * glm::length(b))) continue;
+    normals.push_back(1 / glm::length(normal) * normal);
     break;
   }
-  for (const Vector3& normal : normals) {
+  for (const glm::dvec3& normal : normals) {
     auto contours = fit_runs(points, runs_of_depth(points, normal), in_order);
     if (contours.size() < 2) continue;
     for (Contour& contour : contours) face(normal, contour);
@@ -198,10 +199,10 @@ std::vector<Contour> fit_contours(const std::vector<Vector3>& points, bool in_or
   return {};
 }
 
-void face(const Vector3& direction, Contour& contour) {
-  if (dot(contour.normal, direction) >= 0) return;
-  contour.normal = scale(contour.normal, -1);
-  contour.minor = scale(contour.minor, -1);
+void face(const glm::dvec3& direction, Contour& contour) {
+  if (glm::dot(contour.normal, direction) >= 0) return;
+  contour.normal = -contour.normal;
+  contour.minor = -contour.minor;
 }
 
 }  // namespace isofield

@@ -3,15 +3,15 @@
 #include <optional>
 #include <vector>
 
-#include "importers/vector3.h"
+#include <glm/vec3.hpp>
 
 namespace isofield {
 
 // An ellipse that is fitted to a closed outline in a plane.
 struct Contour {
-  Vector3 center{};
+  glm::dvec3 center{};
   // Unit vectors along the longer axis, the shorter one and the plane's normal: a right-handed frame.
-  Vector3 major{}, minor{}, normal{};
+  glm::dvec3 major{}, minor{}, normal{};
   // Semi-axes, major_length >= minor_length.
   double major_length = 0, minor_length = 0;
   // The least index of its points in the list that it is fitted to.
@@ -23,13 +23,13 @@ struct Contour {
 // count no more than others. Its size is such that the points lie on it on average. Nothing: there are fewer than three
 // points, they are not in one plane (within a tenth of their mean distance from the centre), or they form no closed
 // outline but, for example, a line or an open arc.
-std::optional<Contour> fit_contour(const std::vector<Vector3>& points, bool in_order);
+std::optional<Contour> fit_contour(const std::vector<glm::dvec3>& points, bool in_order);
 
 // Fits ellipses to outlines in two or more parallel planes, ordered by depth along their common normal. Empty: more
 // than a fifth of the points lie outside of such planes, or the points of a plane form no outline.
-std::vector<Contour> fit_contours(const std::vector<Vector3>& points, bool in_order);
+std::vector<Contour> fit_contours(const std::vector<glm::dvec3>& points, bool in_order);
 
 // Turns the frame over where its normal points away from `direction`.
-void face(const Vector3& direction, Contour& contour);
+void face(const glm::dvec3& direction, Contour& contour);
 
 }  // namespace isofield

@@ -3,6 +3,7 @@
 #include <absl/strings/str_cat.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "importers/import_options.h"
 #include "importers/import_report.h"
@@ -12,7 +13,7 @@ namespace isofield {
 namespace {
 
 struct End {
-  Vector3 center;
+  glm::dvec3 center;
   double radius;
 };
 
@@ -23,7 +24,7 @@ End end_of(const SwcSample& sample) {
 bool has_length(const End& a, const End& b) {
   // Shorter edges vanish when rounded to float32.
   constexpr double kShortest = 1e-6;
-  return distance(a.center, b.center) > kShortest * std::max(a.radius, b.radius);
+  return glm::distance(a.center, b.center) > kShortest * std::max(a.radius, b.radius);
 }
 
 class PieceMaker {
@@ -92,7 +93,7 @@ class PieceMaker {
         absl::StrCat(piece_name(samples_[i]), soma_of(i).form == SomaForm::kFrusta ? "" : "/edge");
     if (!joint.contains(parent.center)) {
       add_segment(name, end_of(parent), {joint.surface(joint.target, parent.center), parent.radius});
-    } else if (parent.radius > joint.width && distance(parent.center, joint.target) > 0) {
+    } else if (parent.radius > joint.width && glm::distance(parent.center, joint.target) > 0) {
       add_segment(name, end_of(parent), {joint.target, parent.radius});
     } else {
       note_within(samples_[i]);
@@ -106,23 +107,23 @@ class PieceMaker {
     const bool is_first = in_soma(parent);
     const int at = is_first ? parent : within_[parent];
     const Joint joint = join_soma(somata_, at, sample.center, samples_);
-    const Vector3 inner = is_first ? joint.target : samples_[parent].center;
+    const glm::dvec3 inner = is_first ? joint.target : samples_[parent].center;
     const double inner_radius = is_first ? sample.radius : samples_[parent].radius;
     const bool ends_inside = joint.contains(sample.center);
     if (ends_inside && sample.radius <= joint.width) {
       within_[i] = at;
       if (has_child_[i] || is_covered(joint, end_of(sample))) return note_within(sample);
     }
-    const Vector3 start = ends_inside ? inner : joint.surface(inner, sample.center);
-    const double whole = distance(inner, sample.center);
-    const double part = whole > 0 ? distance(inner, start) / whole : 0;
+    const glm::dvec3 start = ends_inside ? inner : joint.surface(inner, sample.center);
+    const double whole = glm::distance(inner, sample.center);
+    const double part = whole > 0 ? glm::distance(inner, start) / whole : 0;
     add_edge(i, {start, inner_radius + part * (sample.radius - inner_radius)}, end_of(sample));
   }
 
   // True where the joint also contains the point of the sample's ball that is farthest from the target.
   static bool is_covered(const Joint& joint, const End& end) {
-    const double out = distance(joint.target, end.center);
-    return !(out > 0) || joint.contains(between(joint.target, end.center, 1 + end.radius / out));
+    const double out = glm::distance(joint.target, end.center);
+    return !(out > 0) || joint.contains(joint.target + (1 + end.radius / out) * (end.center - joint.target));
   }
 
   void note_within(const SwcSample& sample) {
@@ -147,8 +148,10 @@ class PieceMaker {
     v1::Node& node = *scene_.add_nodes();
     node.set_name(name);
     v1::Segment& segment = *node.mutable_segment();
-    for (const double coordinate : from.center) segment.add_a(coordinate);
-    for (const double coordinate : to.center) segment.add_b(coordinate);
+    for (int axis = 0; axis < 3; ++axis) {
+      segment.add_a(from.center[axis]);
+      segment.add_b(to.center[axis]);
+    }
     segment.set_radius_a(from.radius);
     segment.set_radius_b(to.radius);
     segment.set_range(range_of(options_, kSwcRangeFactor, std::max(from.radius, to.radius)));
@@ -179,7 +182,7 @@ void add_sphere(const SwcSample& sample, const ImportOptions& options, v1::Scene
   v1::Node& node = *scene.add_nodes();
   node.set_name(piece_name(sample));
   v1::Sphere& sphere = *node.mutable_sphere();
-  for (const double coordinate : sample.center) sphere.add_center(coordinate);
+  for (int axis = 0; axis < 3; ++axis) sphere.add_center(sample.center[axis]);
   sphere.set_radius(sample.radius);
   sphere.set_range(range_of(options, kSwcRangeFactor, sample.radius));
 }

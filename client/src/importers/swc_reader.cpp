@@ -39,7 +39,7 @@ std::string piece_id(SwcId id) {
 
 class SampleReader {
  public:
-  SampleReader(const Vector3& scale, ImportReport& report)
+  SampleReader(const glm::dvec3& scale, ImportReport& report)
       : scale_(scale),
         radius_scale_(std::cbrt(scale[0]) * std::cbrt(scale[1]) * std::cbrt(scale[2])),
         report_(report) {}
@@ -98,7 +98,7 @@ class SampleReader {
     samples_.push_back(sample);
   }
 
-  const Vector3 scale_;
+  const glm::dvec3 scale_;
   const double radius_scale_;
   ImportReport& report_;
   std::vector<SwcSample> samples_;
@@ -113,7 +113,7 @@ std::string piece_name(const SwcSample& sample) {
   return absl::StrCat("n", piece_id(sample.id));
 }
 
-std::vector<SwcSample> read_swc_samples(const std::string& text, const Vector3& scale, ImportReport& report) {
+std::vector<SwcSample> read_swc_samples(const std::string& text, const glm::dvec3& scale, ImportReport& report) {
   SampleReader reader(scale, report);
   LineReader lines(text);
   absl::string_view line;

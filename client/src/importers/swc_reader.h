@@ -11,6 +11,6 @@ namespace isofield {
 // Reads the usable lines of a text in their order; no two samples have the same id, and parents are not linked yet. The
 // samples' lines are views into the text. Coordinates are multiplied by `scale`, radii by the geometric mean of its
 // factors. Lines that cannot be used are reported.
-std::vector<SwcSample> read_swc_samples(const std::string& text, const Vector3& scale, ImportReport& report);
+std::vector<SwcSample> read_swc_samples(const std::string& text, const glm::dvec3& scale, ImportReport& report);
 
 }  // namespace isofield

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-#include "importers/vector3.h"
+#include <glm/vec3.hpp>
 
 namespace isofield {
 
@@ -21,7 +21,7 @@ struct SwcSample {
   SwcId id = 0;
   // 0 is undefined, 1 a soma, 2 an axon, 3 a basal and 4 an apical dendrite; other types are custom.
   long long type = 0;
-  Vector3 center{};
+  glm::dvec3 center{};
   // 0 where the file states none that a scene can hold.
   double radius = 0;
   SwcId parent_id = -1;

@@ -34,9 +34,9 @@ std::optional<std::vector<absl::string_view>> scale_fields(absl::string_view lin
   return fields;
 }
 
-std::optional<Vector3> parse_factors(const std::vector<absl::string_view>& fields) {
+std::optional<glm::dvec3> parse_factors(const std::vector<absl::string_view>& fields) {
   if (fields.size() < 3) return std::nullopt;
-  Vector3 factors;
+  glm::dvec3 factors;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto factor = parse_double(fields[axis]);
     if (!factor || !(*factor >= kLeastLength && *factor <= kLargestLength)) return std::nullopt;
@@ -47,9 +47,9 @@ std::optional<Vector3> parse_factors(const std::vector<absl::string_view>& field
 
 }  // namespace
 
-Vector3 read_swc_scale(const std::string& text, bool apply, ImportReport& report) {
-  constexpr Vector3 kNone = {1, 1, 1};
-  std::optional<Vector3> stated;
+glm::dvec3 read_swc_scale(const std::string& text, bool apply, ImportReport& report) {
+  constexpr glm::dvec3 kNone = {1, 1, 1};
+  std::optional<glm::dvec3> stated;
   bool malformed = false;
   LineReader lines(text);
   absl::string_view line;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "importers/import_report.h"
 
@@ -55,7 +56,7 @@ class SomaFinder {
     double radius = 0, extent = 0;
     for (const int i : soma.members) {
       radius = std::max(radius, samples_[i].radius);
-      extent = std::max(extent, distance(samples_[i].center, first.center));
+      extent = std::max(extent, glm::distance(samples_[i].center, first.center));
     }
     if (extent > 1e-6 * radius) return false;
     first.radius = radius;
@@ -68,11 +69,11 @@ class SomaFinder {
     constexpr double kTolerance = 0.05;
     const int center = soma.members[0];
     if (soma_children_[center] != 2) return false;
-    const Vector3 middle = samples_[center].center;
-    const Vector3 first = subtract(samples_[soma.members[1]].center, middle);
-    const Vector3 second = subtract(samples_[soma.members[2]].center, middle);
-    const double radius = (length(first) + length(second)) / 2;
-    if (!(length(add(first, second)) <= 2 * kTolerance * radius) || radius < kLeast || radius > kMost) return false;
+    const glm::dvec3 middle = samples_[center].center;
+    const glm::dvec3 first = samples_[soma.members[1]].center - middle;
+    const glm::dvec3 second = samples_[soma.members[2]].center - middle;
+    const double radius = (glm::length(first) + glm::length(second)) / 2;
+    if (!(glm::length(first + second) <= 2 * kTolerance * radius) || radius < kLeast || radius > kMost) return false;
     const auto fits = [&](int i) {
       const double stated = samples_[i].radius;
       return stated <= kThin * radius || std::abs(stated - radius) <= kTolerance * radius;
@@ -92,7 +93,7 @@ class SomaFinder {
     const bool is_star = soma_children_[outer.front()] >= 3;
     if (is_star || is_in_the_middle(soma)) outer.erase(outer.begin());
     const bool branches = std::any_of(outer.begin(), outer.end(), [&](int i) { return soma_children_[i] > 1; });
-    std::vector<Vector3> points;
+    std::vector<glm::dvec3> points;
     for (const int i : outer) points.push_back(samples_[i].center);
     for (const bool in_order : {true, false}) {
       if (in_order ? is_star : !is_star && !branches) continue;
@@ -113,13 +114,13 @@ class SomaFinder {
   }
 
   bool is_in_the_middle(const Soma& soma) const {
-    const Vector3 first = samples_[soma.members.front()].center;
+    const glm::dvec3 first = samples_[soma.members.front()].center;
     const double others = static_cast<double>(soma.members.size()) - 1;
-    Vector3 middle{};
-    for (const int i : soma.members) middle = add(middle, scale(subtract(samples_[i].center, first), 1 / others));
+    glm::dvec3 middle{};
+    for (const int i : soma.members) middle += 1 / others * (samples_[i].center - first);
     double extent = 0;
-    for (const int i : soma.members) extent += distance(samples_[i].center, first) / others;
-    return soma.members.size() > 3 && length(middle) <= 0.3 * extent;
+    for (const int i : soma.members) extent += glm::distance(samples_[i].center, first) / others;
+    return soma.members.size() > 3 && glm::length(middle) <= 0.3 * extent;
   }
 
   double median_radius(const std::vector<int>& members) const {
@@ -150,13 +151,13 @@ class SomaFinder {
     }
     for (Soma& soma : found_.all) {
       if (soma.contours.size() < 2) continue;
-      const Vector3 normal = soma.contours.front().normal;
+      const glm::dvec3 normal = soma.contours.front().normal;
       std::stable_sort(soma.contours.begin(), soma.contours.end(), [&](const Contour& a, const Contour& b) {
-        return dot(normal, a.center) < dot(normal, b.center);
+        return glm::dot(normal, a.center) < glm::dot(normal, b.center);
       });
       // Two outlines at one depth may be those of a cell and its nucleus; only the first one is kept.
       const auto is_same_depth = [&](const Contour& a, const Contour& b) {
-        return dot(normal, subtract(b.center, a.center)) <= 1e-3 * std::min(a.minor_length, b.minor_length);
+        return glm::dot(normal, b.center - a.center) <= 1e-3 * std::min(a.minor_length, b.minor_length);
       };
       soma.contours.erase(std::unique(soma.contours.begin(), soma.contours.end(), is_same_depth), soma.contours.end());
       if (soma.contours.size() > 1) soma.stack = stack_contours(soma.contours);
@@ -165,10 +166,10 @@ class SomaFinder {
 
   static bool lies_above(const Contour& below, const Contour& above) {
     const double width = std::min(below.major_length, above.major_length);
-    const Vector3 step = subtract(above.center, below.center);
-    const double depth = std::abs(dot(step, below.normal));
-    const double aside = std::sqrt(std::max(0.0, dot(step, step) - depth * depth));
-    return std::abs(dot(below.normal, above.normal)) > 0.99 && aside < width && depth > 1e-3 * width &&
+    const glm::dvec3 step = above.center - below.center;
+    const double depth = std::abs(glm::dot(step, below.normal));
+    const double aside = std::sqrt(std::max(0.0, glm::dot(step, step) - depth * depth));
+    return std::abs(glm::dot(below.normal, above.normal)) > 0.99 && aside < width && depth > 1e-3 * width &&
            depth < 2 * width;
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace isofield {
 namespace {
@@ -16,8 +17,8 @@ void set_frame(const std::vector<Contour>& contours, ContourStack& stack, double
     return a.major_length * a.minor_length < b.major_length * b.minor_length;
   });
   double xx = 0, xy = 0, yy = 0;
-  const auto add_axis = [&](const Vector3& axis, double weight) {
-    const double x = dot(axis, widest.major), y = dot(axis, widest.minor);
+  const auto add_axis = [&](const glm::dvec3& axis, double weight) {
+    const double x = glm::dot(axis, widest.major), y = glm::dot(axis, widest.minor);
     xx += weight * x * x;
     xy += weight * x * y;
     yy += weight * y * y;
@@ -31,8 +32,8 @@ void set_frame(const std::vector<Contour>& contours, ContourStack& stack, double
   const double ratio = std::sqrt((half_sum + half_difference) / std::max(half_sum - half_difference, 1e-300));
   aspect = std::min(ratio, kMostStretch);
   stack.origin = widest.center;
-  stack.axes = {add(scale(widest.major, std::cos(turn)), scale(widest.minor, std::sin(turn))),
-                subtract(scale(widest.minor, std::cos(turn)), scale(widest.major, std::sin(turn))), widest.normal};
+  stack.axes = {std::cos(turn) * widest.major + std::sin(turn) * widest.minor,
+                std::cos(turn) * widest.minor - std::sin(turn) * widest.major, widest.normal};
 }
 
 struct Ring {
@@ -106,12 +107,12 @@ ContourStack stack_contours(const std::vector<Contour>& contours) {
   set_frame(contours, stack, aspect);
   std::vector<Ring> rings;
   for (const Contour& contour : contours) {
-    rings.push_back({dot(stack.axes[2], subtract(contour.center, stack.origin)),
+    rings.push_back({glm::dot(stack.axes[2], contour.center - stack.origin),
                      contour.major_length * contour.minor_length * aspect});
   }
   if (rings.front().depth > rings.back().depth) {
-    stack.axes[2] = scale(stack.axes[2], -1);
-    stack.axes[1] = scale(stack.axes[1], -1);
+    stack.axes[2] = -stack.axes[2];
+    stack.axes[1] = -stack.axes[1];
     for (Ring& ring : rings) ring.depth = -ring.depth;
   }
   double stretch = std::clamp(roundest_stretch(rings), 1 / kMostStretch, kMostStretch);
@@ -120,12 +121,12 @@ ContourStack stack_contours(const std::vector<Contour>& contours) {
     stretch = std::min(1.2 * stretch, kMostStretch);
     touching = touching_balls(rings, stretch);
   }
-  stack.to_local = {stack.axes[0], scale(stack.axes[1], aspect), scale(stack.axes[2], stretch)};
-  stack.axes = {stack.axes[0], scale(stack.axes[1], 1 / aspect), scale(stack.axes[2], 1 / stretch)};
+  stack.to_local = {stack.axes[0], aspect * stack.axes[1], stretch * stack.axes[2]};
+  stack.axes = {stack.axes[0], 1 / aspect * stack.axes[1], 1 / stretch * stack.axes[2]};
   for (std::size_t i = 0; i < contours.size(); ++i) {
-    const Vector3 arm = subtract(contours[i].center, stack.origin);
+    const glm::dvec3 arm = contours[i].center - stack.origin;
     stack.balls.push_back(
-        {{dot(stack.to_local[0], arm), dot(stack.to_local[1], arm), touching[i].depth}, touching[i].radius});
+        {{glm::dot(stack.to_local[0], arm), glm::dot(stack.to_local[1], arm), touching[i].depth}, touching[i].radius});
   }
   return stack;
 }

@@ -11,12 +11,12 @@ namespace isofield {
 // neighbouring balls. A linear map takes p - origin to the coordinates in which these are balls.
 struct ContourStack {
   struct Ball {
-    Vector3 center{};
+    glm::dvec3 center{};
     double radius = 0;
   };
-  Vector3 origin{};
+  glm::dvec3 origin{};
   // The rows of the map's matrix, and the columns of its inverse.
-  std::array<Vector3, 3> to_local{}, axes{};
+  std::array<glm::dvec3, 3> to_local{}, axes{};
   std::vector<Ball> balls;
 };
 

@@ -15,7 +15,7 @@ bool is_box(absl::string_view line) {
 
 bool is_numbered_atom(absl::string_view line) {
   const auto fields = split_fields(line);
-  std::array<double, 3> center;
+  glm::dvec3 center;
   return fields.size() >= 5 && parse_integer(fields[0]) && !parse_double(fields[1]) && parse_center(fields, 2, center);
 }
 
@@ -71,7 +71,7 @@ void import_frame(const std::vector<TextLine>& lines, const TinkerFrame& frame, 
     const Element* const element = element_of_force_field_name(fields[1]);
     const AtomSource source{number, line};
     if (leave_out_hydrogen(element, source, options, imported.report)) continue;
-    std::array<double, 3> center;
+    glm::dvec3 center;
     parse_center(fields, 2, center);
     add_atom(element, center, source, options, imported);
   }

@@ -43,7 +43,7 @@ const Element* element_in(const std::vector<absl::string_view>& fields, const Xy
 void import_atom(const TextLine& line, const XyzColumns& columns, double scale, const ImportOptions& options,
                  Imported& imported) {
   const auto fields = split_fields(line.text);
-  std::array<double, 3> center;
+  glm::dvec3 center;
   if (!parse_center(fields, columns.position, center)) {
     note(imported.report,
          absl::StrCat("line dropped: expected finite numbers of a usable size for x, y and z in its fields ",
@@ -54,8 +54,7 @@ void import_atom(const TextLine& line, const XyzColumns& columns, double scale, 
   const AtomSource source{line.number, line.text};
   const Element* const element = element_in(fields, columns);
   if (leave_out_hydrogen(element, source, options, imported.report)) return;
-  for (double& coordinate : center) coordinate *= scale;
-  add_atom(element, center, source, options, imported);
+  add_atom(element, scale * center, source, options, imported);
 }
 
 void import_frame(const std::vector<TextLine>& lines, const XyzFrame& frame, const ImportOptions& options,

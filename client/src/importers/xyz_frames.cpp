@@ -16,7 +16,7 @@ constexpr double kBohr = 0.529177210903;
 // True for "element x y z" with a known element.
 bool is_atom(absl::string_view line) {
   const auto fields = split_fields(line);
-  std::array<double, 3> center;
+  glm::dvec3 center;
   return parse_center(fields, 1, center) && element_of_label(fields[0]);
 }
 
@@ -62,7 +62,7 @@ std::optional<XyzHeader> parse_header(absl::string_view line) {
   fields.erase(fields.begin());
   if (!fields.empty() && parse_double(fields[0])) return std::nullopt;
   // A numbered atom, such as "1 O 0.0 0.0 0.0", is no header.
-  if (std::array<double, 3> center; parse_center(fields, 1, center)) return std::nullopt;
+  if (glm::dvec3 center; parse_center(fields, 1, center)) return std::nullopt;
   XyzHeader header{*count, 1};
   if (fields.size() == 1 || (fields.size() == 2 && absl::EqualsIgnoreCase(fields[1], "units"))) {
     for (const char* unit : {"bohr", "bohrs", "au", "a.u.", "atomic"}) {
@@ -112,10 +112,10 @@ bool are_points(const std::vector<TextLine>& lines, std::size_t header_line, con
   return !atomic_numbers && numbers > atoms;
 }
 
-bool parse_center(const std::vector<absl::string_view>& fields, std::size_t first, std::array<double, 3>& center) {
+bool parse_center(const std::vector<absl::string_view>& fields, std::size_t first, glm::dvec3& center) {
   if (fields.size() < first + 3) return false;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto value = parse_length(fields[first + axis]);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto value = parse_length(fields[first + static_cast<std::size_t>(axis)]);
     if (!value) return false;
     center[axis] = *value;
   }

@@ -2,8 +2,8 @@
 
 #include <absl/strings/string_view.h>
 
-#include <array>
 #include <cstddef>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
 
@@ -49,7 +49,7 @@ std::vector<XyzFrame> find_frames(const std::vector<TextLine>& lines, std::size_
 bool are_points(const std::vector<TextLine>& lines, std::size_t header_line, const XyzHeader& header);
 
 // Reads the fields first, first + 1 and first + 2 as coordinates. False: one is missing, no number or too large.
-bool parse_center(const std::vector<absl::string_view>& fields, std::size_t first, std::array<double, 3>& center);
+bool parse_center(const std::vector<absl::string_view>& fields, std::size_t first, glm::dvec3& center);
 
 // True where all fields are numbers.
 bool are_numbers(const std::vector<absl::string_view>& fields);
