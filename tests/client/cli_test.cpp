@@ -22,7 +22,11 @@ TEST_F(CliTest, KeepsScenes) {
   EXPECT_EQ(run("put --name other '" + path("my ball.json") + "' --json"), 0) << err_;
   EXPECT_TRUE(absl::StrContains(out_, "\"name\":\"other\"")) << out_;
   EXPECT_EQ(run("ls"), 0);
-  EXPECT_TRUE(absl::StrContains(out_, "my_ball")) << out_;
+  EXPECT_TRUE(absl::StartsWith(out_, "NAME                                VERSION      NODES   PRIMITIVES")) << out_;
+  EXPECT_TRUE(absl::StrContains(out_, "\nmy_ball                                   1          1")) << out_;
+  EXPECT_EQ(run("ls --json"), 0);
+  EXPECT_TRUE(absl::StartsWith(out_, R"({"scenes":[{"name":"my_ball",)")) << out_;
+  EXPECT_TRUE(absl::EndsWith(out_, "}],\"has_more\":false}\n")) << out_;
   EXPECT_EQ(run("show other"), 0);
   EXPECT_TRUE(parse_scene_json(out_, "out").ok()) << out_;
   EXPECT_EQ(run("edit other ball.center=1,-2,3"), 0) << err_;

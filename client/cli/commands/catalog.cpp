@@ -1,19 +1,18 @@
 #include <absl/strings/numbers.h>
 #include <absl/strings/str_cat.h>
-#include <absl/strings/str_format.h>
 #include <absl/strings/str_split.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
+#include "commands/catalog_listing.h"
 #include "commands/checks.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/scene_argument.h"
 #include "exit_codes.h"
 #include "isofield/scene_file.h"
-#include "json_output.h"
 
 namespace isofield {
 namespace {
@@ -23,12 +22,20 @@ std::string describe(const v1::SceneSummary& summary) {
                       summary.primitives(), " primitives, ", summary.device_bytes(), " bytes on the device");
 }
 
-void print(const v1::SceneSummary& summary, bool json) {
-  if (json) {
-    print_json(summary);
-  } else {
-    std::printf("%s\n", describe(summary).c_str());
-  }
+std::vector<std::string> row_of(const v1::SceneSummary& summary) {
+  return {summary.name(), absl::StrCat(summary.version()), absl::StrCat(summary.nodes()),
+          absl::StrCat(summary.primitives()), absl::StrCat(summary.device_bytes())};
+}
+
+const Catalog<v1::SceneSummary>& scenes() {
+  static const auto* const kScenes = new Catalog<v1::SceneSummary>{
+      "scenes",
+      &Client::list_scenes,
+      &Client::delete_scene,
+      describe,
+      {{"NAME", -32}, {"VERSION", 10}, {"NODES", 10}, {"PRIMITIVES", 12}, {"BYTES", 14}},
+      row_of};
+  return *kScenes;
 }
 
 absl::Status put(const Context& context, const std::string& file, const std::string& name, const ImportFlags& flags) {
@@ -36,29 +43,8 @@ absl::Status put(const Context& context, const std::string& file, const std::str
   if (!loaded.ok()) return loaded.status();
   auto client = context.connect();
   if (!client.ok()) return client.status();
-  const auto summary = client->put_scene(name.empty() ? name_for(file) : name, std::move(loaded->scene));
-  if (!summary.ok()) return summary.status();
-  print(*summary, context.json);
-  return absl::OkStatus();
-}
-
-absl::Status list(const Context& context) {
-  auto client = context.connect();
-  if (!client.ok()) return client.status();
-  const auto scenes = client->list_scenes();
-  if (!scenes.ok()) return scenes.status();
-  if (context.json) {
-    v1::ListScenesResponse all;
-    for (const auto& summary : *scenes) *all.add_scenes() = summary;
-    print_json(all);
-    return absl::OkStatus();
-  }
-  if (!scenes->empty()) absl::PrintF("%-32s %10s %10s %12s %14s\n", "NAME", "VERSION", "NODES", "PRIMITIVES", "BYTES");
-  for (const auto& summary : *scenes) {
-    absl::PrintF("%-32s %10u %10u %12u %14u\n", summary.name(), summary.version(), summary.nodes(),
-                 summary.primitives(), summary.device_bytes());
-  }
-  return absl::OkStatus();
+  return print_entry(context, scenes(),
+                     client->put_scene(name.empty() ? name_for(file) : name, std::move(loaded->scene)));
 }
 
 absl::Status show(const Context& context, const std::string& name) {
@@ -74,18 +60,6 @@ absl::Status show(const Context& context, const std::string& name) {
   if (!text.ok()) return text.status();
   std::fprintf(stderr, "%s\n", describe(response->summary()).c_str());
   std::fwrite(text->data(), 1, text->size(), stdout);
-  return absl::OkStatus();
-}
-
-absl::Status remove(const Context& context, const std::string& name) {
-  auto client = context.connect();
-  if (!client.ok()) return client.status();
-  if (auto status = client->delete_scene(name); !status.ok()) return status;
-  if (context.json) {
-    JsonObject().set("deleted", name).print();
-  } else {
-    std::printf("%s: deleted\n", name.c_str());
-  }
   return absl::OkStatus();
 }
 
@@ -118,10 +92,7 @@ absl::Status edit(const Context& context, const std::string& name, const std::ve
   }
   auto client = context.connect();
   if (!client.ok()) return client.status();
-  const auto summary = client->edit_parameters(request);
-  if (!summary.ok()) return summary.status();
-  print(*summary, context.json);
-  return absl::OkStatus();
+  return print_entry(context, scenes(), client->edit_parameters(request));
 }
 
 }  // namespace
@@ -147,7 +118,7 @@ void add_catalog_commands(CLI::App& app, Context& context) {
       [&context, arguments] { context.outcome = put(context, arguments->file, arguments->name, arguments->flags); });
 
   command = app.add_subcommand("ls", "List the server's scenes");
-  command->callback([&context] { context.outcome = list(context); });
+  command->callback([&context] { context.outcome = list_catalog(context, scenes()); });
 
   command = app.add_subcommand("show", "Print a scene of the server as JSON");
   command->add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it")->required();
@@ -155,7 +126,7 @@ void add_catalog_commands(CLI::App& app, Context& context) {
 
   command = app.add_subcommand("rm", "Delete a scene of the server");
   command->add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it")->required();
-  command->callback([&context, arguments] { context.outcome = remove(context, arguments->name); });
+  command->callback([&context, arguments] { context.outcome = remove_entry(context, scenes(), arguments->name); });
 
   command = app.add_subcommand("edit", "Change numbers of a scene on the server; all of them, or none");
   command->add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it")->required();

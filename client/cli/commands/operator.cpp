@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "commands/catalog_listing.h"
 #include "commands/checks.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
@@ -26,13 +27,25 @@ std::string version_of(const v1::OperatorSummary& summary) {
   return summary.version() == 0 ? "built in" : absl::StrCat(summary.version());
 }
 
-void print(const v1::OperatorSummary& summary, bool json) {
-  if (json) {
-    print_json(summary);
-    return;
-  }
-  std::printf("%s: version %s, %s, %s fields, %s\n", summary.name().c_str(), version_of(summary).c_str(),
-              summary.kind().c_str(), law_of(summary).c_str(), absl::StrJoin(summary.arguments(), ",").c_str());
+std::string describe(const v1::OperatorSummary& summary) {
+  return absl::StrCat(summary.name(), ": version ", version_of(summary), ", ", summary.kind(), ", ", law_of(summary),
+                      " fields, ", absl::StrJoin(summary.arguments(), ","));
+}
+
+std::vector<std::string> row_of(const v1::OperatorSummary& summary) {
+  return {summary.name(), summary.kind(), law_of(summary), version_of(summary),
+          absl::StrJoin(summary.arguments(), ",")};
+}
+
+const Catalog<v1::OperatorSummary>& operators() {
+  static const auto* const kOperators = new Catalog<v1::OperatorSummary>{
+      "operators",
+      &Client::list_operators,
+      &Client::delete_operator,
+      describe,
+      {{"NAME", -24}, {"KIND", -14}, {"FIELDS", -9}, {"VERSION", 9}, {"ARGUMENTS", 0}},
+      row_of};
+  return *kOperators;
 }
 
 absl::Status put(const Context& context, const std::string& file, const std::string& name) {
@@ -40,29 +53,8 @@ absl::Status put(const Context& context, const std::string& file, const std::str
   if (!message.ok()) return file_error(message.status());
   auto client = context.connect();
   if (!client.ok()) return client.status();
-  const auto summary = client->put_operator(name.empty() ? name_for(file) : name, *std::move(message));
-  if (!summary.ok()) return summary.status();
-  print(*summary, context.json);
-  return absl::OkStatus();
-}
-
-absl::Status list(const Context& context) {
-  auto client = context.connect();
-  if (!client.ok()) return client.status();
-  const auto operators = client->list_operators();
-  if (!operators.ok()) return operators.status();
-  if (context.json) {
-    v1::ListOperatorsResponse all;
-    for (const auto& summary : *operators) *all.add_operators() = summary;
-    print_json(all);
-    return absl::OkStatus();
-  }
-  absl::PrintF("%-24s %-14s %-9s %9s  %s\n", "NAME", "KIND", "FIELDS", "VERSION", "ARGUMENTS");
-  for (const auto& summary : *operators) {
-    absl::PrintF("%-24s %-14s %-9s %9s  %s\n", summary.name(), summary.kind(), law_of(summary), version_of(summary),
-                 absl::StrJoin(summary.arguments(), ","));
-  }
-  return absl::OkStatus();
+  return print_entry(context, operators(),
+                     client->put_operator(name.empty() ? name_for(file) : name, *std::move(message)));
 }
 
 // Of the kind that an operator is.
@@ -102,18 +94,6 @@ absl::Status show(const Context& context, const std::string& name) {
   return absl::OkStatus();
 }
 
-absl::Status remove(const Context& context, const std::string& name) {
-  auto client = context.connect();
-  if (!client.ok()) return client.status();
-  if (auto status = client->delete_operator(name); !status.ok()) return status;
-  if (context.json) {
-    JsonObject().set("deleted", name).print();
-  } else {
-    absl::PrintF("%s: deleted\n", name);
-  }
-  return absl::OkStatus();
-}
-
 struct PickArguments {
   std::string scene, node;
   std::array<double, 3> point{};
@@ -147,7 +127,7 @@ void add_operator_commands(CLI::App& app, Context& context) {
   all->require_subcommand(1);
 
   CLI::App* command = all->add_subcommand("ls", "List the built-in operators and the server's custom ones");
-  command->callback([&context] { context.outcome = list(context); });
+  command->callback([&context] { context.outcome = list_catalog(context, operators()); });
 
   command = all->add_subcommand(
       "show", "Print an operator as JSON, and on the standard error what its parameters accept and their defaults");
@@ -161,7 +141,7 @@ void add_operator_commands(CLI::App& app, Context& context) {
 
   command = all->add_subcommand("rm", "Delete a custom operator of the server; scenes keep it");
   command->add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it")->required();
-  command->callback([&context, arguments] { context.outcome = remove(context, arguments->name); });
+  command->callback([&context, arguments] { context.outcome = remove_entry(context, operators(), arguments->name); });
 
   add_operator_eval_command(*all, context);
   add_operator_plot_command(*all, context);
