@@ -16,6 +16,27 @@ absl::Status append_part(const v1::MeshPart& part, Mesh& mesh) {
   return status;
 }
 
+absl::Status append_creases(const v1::MeshCreases& part, Mesh::Creases& creases) {
+  absl::Status status;
+  if (part.has_vertices()) status.Update(append_indices(part.vertices(), 1, creases.vertices));
+  if (part.has_normals()) status.Update(append_floats(part.normals(), 3, creases.normals));
+  if (part.has_corners()) status.Update(append_indices(part.corners(), 2, creases.corners));
+  return status;
+}
+
+// INTERNAL: the wedges do not fit the mesh.
+absl::Status check_creases(const Mesh& mesh) {
+  const auto& [vertices, normals, corners] = mesh.creases;
+  const std::size_t wedges = vertices.size();
+  bool fits = normals.size() == 3 * wedges && (wedges == 0 || !mesh.normals.empty());
+  for (const std::uint32_t vertex : vertices) fits &= vertex < mesh.vertex_count();
+  for (std::size_t i = 0; fits && i < corners.size(); i += 2) {
+    fits = corners[i] < mesh.triangles.size() && corners[i + 1] < wedges &&
+           mesh.triangles[corners[i]] == vertices[corners[i + 1]];
+  }
+  return fits ? absl::OkStatus() : absl::InternalError("the server sent creases that do not fit the mesh");
+}
+
 // INTERNAL: the arrays do not hold what the summary announced.
 absl::Status check(const Mesh& mesh) {
   const auto& summary = mesh.summary;
@@ -31,7 +52,7 @@ absl::Status check(const Mesh& mesh) {
     return absl::InternalError(
         absl::StrCat("the server sent a triangle of vertex ", *largest, " of ", mesh.vertex_count()));
   }
-  return absl::OkStatus();
+  return check_creases(mesh);
 }
 
 absl::Status check(const MeshedBricks& mesh) {
@@ -79,8 +100,11 @@ absl::StatusOr<Mesh> Client::mesh(const v1::MeshRequest& request, const Progress
     grpc::ClientContext context;
     Impl::set_timeout(context, impl_->options.stream_timeout);
     const auto stream = impl_->meshes->Mesh(&context, request);
-    const auto status = read_mesh(context, *stream, progress, mesh.summary, impl_->address,
-                                  [&](const v1::MeshResponse& response) { return append_part(response.part(), mesh); });
+    const auto status =
+        read_mesh(context, *stream, progress, mesh.summary, impl_->address, [&](const v1::MeshResponse& response) {
+          return response.has_creases() ? append_creases(response.creases(), mesh.creases)
+                                        : append_part(response.part(), mesh);
+        });
     return status.ok() ? check(mesh) : status;
   };
   if (auto status = impl_->retry(attempt); !status.ok()) return status;

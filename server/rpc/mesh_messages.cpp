@@ -111,16 +111,24 @@ engine::ShellFilter read_shell_filter(const v1::MeshRequest& request) {
   return {.largest_body = request.largest_body(), .fill_voids = request.fill_voids()};
 }
 
+absl::StatusOr<bool> read_crease_normals(const v1::MeshRequest& request) {
+  if (request.crease_normals() && request.omit_normals()) {
+    return absl::InvalidArgumentError("crease_normals = true: expected false where omit_normals leaves normals out");
+  }
+  return request.crease_normals();
+}
+
 absl::Status check_as_made(const v1::MeshRequest& request) {
   const auto refuse = [](const std::string& field, const char* who) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        field, ": expected none, since bricks are the same whatever part they come with; Mesh and Measure ", who));
+    return absl::InvalidArgumentError(
+        absl::StrCat(field, ": expected none, since bricks are the same whatever part they come with; ", who));
   };
   if (request.has_simplification_error()) {
-    return refuse(absl::StrCat("simplification_error = ", request.simplification_error()), "simplify");
+    return refuse(absl::StrCat("simplification_error = ", request.simplification_error()), "Mesh and Measure simplify");
   }
-  if (request.largest_body()) return refuse("largest_body = true", "leave bodies out");
-  if (request.fill_voids()) return refuse("fill_voids = true", "leave voids out");
+  if (request.largest_body()) return refuse("largest_body = true", "Mesh and Measure leave bodies out");
+  if (request.fill_voids()) return refuse("fill_voids = true", "Mesh and Measure leave voids out");
+  if (request.crease_normals()) return refuse("crease_normals = true", "Mesh tells creases, which need all of a mesh");
   return absl::OkStatus();
 }
 

@@ -29,8 +29,10 @@ std::uint64_t estimated_cells(const blobtree::Tape& tape, const engine::MeshRequ
 // Model units; nothing: none is asked for.
 absl::StatusOr<std::optional<double>> read_simplification_error(const v1::MeshRequest& request);
 engine::ShellFilter read_shell_filter(const v1::MeshRequest& request);
+// Whether the answer has MeshCreases. INVALID_ARGUMENT: it is to have no normals.
+absl::StatusOr<bool> read_crease_normals(const v1::MeshRequest& request);
 // Bricks are the same whatever part they come with, and so as they are made: INVALID_ARGUMENT where a mesh that is
-// simplified, or lacks some of its bodies or voids, is asked for.
+// simplified, lacks some of its bodies or voids, or has normals of creases, is asked for.
 absl::Status check_as_made(const v1::MeshRequest& request);
 
 // Bricks `first` and on: as many as a message holds. `vertex` and `triangle` are those before them, and move on.

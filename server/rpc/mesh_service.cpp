@@ -9,35 +9,15 @@
 #include "base/status_macros.h"
 #include "engine/simplify/mesh_measure.h"
 #include "engine/simplify/mesh_simplifier.h"
-#include "rpc/answer_limit.h"
 #include "rpc/geometry_arguments.h"
 #include "rpc/mesh_progress.h"
 #include "rpc/mesh_tracking.h"
+#include "rpc/mesh_writer.h"
 #include "rpc/open_stream.h"
 #include "rpc/tensor.h"
 
 namespace isofield::rpc {
 namespace {
-
-// Writes an array of rows of 3 in parts.
-template <class T>
-absl::Status write_rows(grpc::ServerWriter<v1::MeshResponse>& writer, const std::vector<T>& rows,
-                v1::Tensor* (v1::MeshPart::*field)()) {
-  return in_parts(std::span<const T>(rows), 3, [&](std::span<const T> part) {
-    v1::MeshResponse response;
-    set_rows(part, 3, *(response.mutable_part()->*field)());
-    return send(writer, response);
-  });
-}
-
-// Writes a mesh, or a part of one, with these triangles.
-template <class Part>
-absl::Status write_mesh(const Part& part, const std::vector<std::uint32_t>& triangles,
-                        grpc::ServerWriter<v1::MeshResponse>& writer) {
-  ISOFIELD_RETURN_IF_ERROR(write_rows(writer, part.positions, &v1::MeshPart::mutable_positions));
-  ISOFIELD_RETURN_IF_ERROR(write_rows(writer, part.normals, &v1::MeshPart::mutable_normals));
-  return write_rows(writer, triangles, &v1::MeshPart::mutable_triangles);
-}
 
 // The part of the progress that meshing makes, where the mesh is simplified after that.
 constexpr double kMeshingPart = 0.4;
@@ -123,18 +103,20 @@ absl::Status MeshService::mesh(Call& call, const v1::MeshRequest& request,
   ISOFIELD_ASSIGN_OR_RETURN(const engine::MeshRequest r, read_mesh_request(request, *leased.scene, engine_.mesher(),
                                                                            limits_, callbacks.cancelled));
   ISOFIELD_RETURN_IF_ERROR(call.admit(estimated_cells(leased.scene->tape(), r)));
+  ISOFIELD_ASSIGN_OR_RETURN(const bool with_creases, read_crease_normals(request));
+  MeshWriter out(writer, with_creases);
   if (refinement.is_none()) {
-    engine::MeshJoiner joiner;
     const auto deliver = [&](const engine::MeshCells& cells) {
       totals.add(cells);
-      return write_mesh(cells, joiner.number(cells), writer);
+      return out.write(cells);
     };
     ISOFIELD_RETURN_IF_ERROR(engine_.mesher().cells(*leased.scene, r, callbacks, deliver, &totals.shells));
   } else {
-    ISOFIELD_ASSIGN_OR_RETURN(const engine::Mesh whole,
+    ISOFIELD_ASSIGN_OR_RETURN(engine::Mesh whole,
                               make_mesh(engine_.mesher(), *leased.scene, r, refinement, callbacks, totals));
-    ISOFIELD_RETURN_IF_ERROR(write_mesh(whole, whole.triangles, writer));
+    ISOFIELD_RETURN_IF_ERROR(out.write(std::move(whole)));
   }
+  ISOFIELD_RETURN_IF_ERROR(out.write_creases());
   v1::MeshResponse response;
   fill_summary(totals, r, leased, *response.mutable_summary());
   return send(writer, response);

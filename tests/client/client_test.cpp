@@ -269,6 +269,24 @@ TEST_F(ClientTest, MeshesWithProgress) {
   EXPECT_TRUE(client_.mesh(request)->normals.empty());
 }
 
+TEST_F(ClientTest, MeshesHaveTheNormalsOfCreasesWhereTheseAreAskedFor) {
+  v1::MeshRequest request;
+  *request.mutable_scene() = inline_scene(ball());
+  EXPECT_TRUE(client_.mesh(request)->creases.vertices.empty());
+  request.set_crease_normals(true);
+  const auto mesh = client_.mesh(request);
+  ASSERT_TRUE(mesh.ok()) << mesh.status();
+  const std::uint32_t vertex = mesh->triangles[0];
+  EXPECT_EQ(mesh->creases.vertices, (std::vector<std::uint32_t>{vertex, vertex}));
+  EXPECT_EQ(mesh->creases.normals, (std::vector<float>{1, 0, 0, 0, 1, 0}));
+  EXPECT_EQ(mesh->creases.corners, (std::vector<std::uint32_t>{0, 1}));
+  for (const std::vector<std::uint32_t>& wrong :
+       {std::vector<std::uint32_t>{1, 1}, {0, 2}, {static_cast<std::uint32_t>(mesh->triangles.size()), 1}}) {
+    server_.crease_corner = wrong;
+    EXPECT_EQ(client_.mesh(request).status().code(), absl::StatusCode::kInternal);
+  }
+}
+
 TEST_F(ClientTest, ACancelledMeshStopsTheServer) {
   server_.endless_mesh = true;
   v1::MeshRequest request;

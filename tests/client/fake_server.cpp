@@ -3,6 +3,7 @@
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -279,6 +280,16 @@ class FakeServer::Meshes : public v1::MeshService::Service {
     fill(mesh.triangles.data(), mesh.triangles.size() * 4, v1::Tensor::UINT32, {mesh.triangle_count(), 3},
          *part->mutable_triangles());
     writer->Write(response);
+    if (request->crease_normals()) {
+      // Two wedges at the first vertex of the first triangle.
+      const std::array<std::uint32_t, 2> vertices = {mesh.triangles[0], mesh.triangles[0]};
+      const std::array<float, 6> normals = {1, 0, 0, 0, 1, 0};
+      auto* creases = response.mutable_creases();
+      fill(vertices.data(), sizeof(vertices), v1::Tensor::UINT32, {2, 1}, *creases->mutable_vertices());
+      fill(normals.data(), sizeof(normals), v1::Tensor::FLOAT32, {2, 3}, *creases->mutable_normals());
+      fill(owner_.crease_corner.data(), 8, v1::Tensor::UINT32, {1, 2}, *creases->mutable_corners());
+      writer->Write(response);
+    }
     return grpc::Status::OK;
   }
 

@@ -45,6 +45,8 @@ class FakeServer {
   std::atomic<bool> wrong_summary = false;
   std::atomic<bool> too_thin = false;  // the mesh is said to have cells that are too coarse
   std::string mesh_unit;               // of the summary
+  // Of the creases that a mesh has where they are asked for: a corner, and its wedge.
+  std::vector<std::uint32_t> crease_corner = {0, 1};
 
  private:
   class Scenes;

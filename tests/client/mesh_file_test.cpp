@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <set>
 
 #include "isofield/scene_file.h"
 #include "mesh_files/crease_normals.h"
@@ -105,7 +108,17 @@ TEST(MeshFile, GlbReadsBack) {
   EXPECT_EQ(model.scenes.at(0).nodes.size(), 1u);
 }
 
-// Vertices on edges have the normal of one of their sides, as a field's gradient has.
+// The axis, 0 to 2, that a triangle of a cube is at right angles to.
+std::size_t axis_of(const Mesh& mesh, std::size_t triangle) {
+  const auto at = [&](std::size_t c, std::size_t axis) {
+    return mesh.positions[3 * std::size_t{mesh.triangles[3 * triangle + c]} + axis];
+  };
+  std::size_t axis = 0;
+  while (at(0, axis) != at(1, axis) || at(0, axis) != at(2, axis)) ++axis;
+  return axis;
+}
+
+// Vertices on edges have the normal of one of their sides, as a field's gradient has, and a wedge for each side.
 Mesh cube_mesh(int n) {
   const test_support::CubeGrid grid = test_support::cube_grid(n);
   Mesh mesh;
@@ -115,6 +128,24 @@ Mesh cube_mesh(int n) {
   }
   for (const auto& side : grid.sides) {
     for (const double x : side) mesh.normals.push_back(static_cast<float>(x));
+  }
+  std::map<std::uint32_t, std::map<std::size_t, std::uint32_t>> wedges;  // by vertex and axis
+  for (std::uint32_t c = 0; c < mesh.triangles.size(); ++c) {
+    const std::uint32_t vertex = mesh.triangles[c];
+    const auto& place = grid.places[vertex];
+    if (std::count_if(place.begin(), place.end(), [](double x) { return std::abs(x) == 1; }) == 1) continue;
+    const std::size_t axis = axis_of(mesh, c / 3);
+    const auto [wedge, is_new] =
+        wedges[vertex].try_emplace(axis, static_cast<std::uint32_t>(mesh.creases.vertices.size()));
+    if (is_new) {
+      mesh.creases.vertices.push_back(vertex);
+      for (std::size_t a = 0; a < 3; ++a) {
+        mesh.creases.normals.push_back(a == axis ? static_cast<float>(place[axis]) : 0);
+      }
+    }
+    const auto& of_vertex = mesh.creases.vertices;
+    const auto first = std::find(of_vertex.begin(), of_vertex.end(), vertex) - of_vertex.begin();
+    if (wedge->second != first) mesh.creases.corners.insert(mesh.creases.corners.end(), {c, wedge->second});
   }
   return mesh;
 }
@@ -163,48 +194,28 @@ TEST(MeshFile, ObjNamesANormalForEachSideOfACrease) {
   EXPECT_EQ(std::vector<std::string>(absl::StrSplit(obj, "\nvn ")).size(), 25u) << obj;
 }
 
-TEST(MeshFile, SmoothMeshesKeepTheirVertices) {
-  // Down to ten and eight sides around, which turn by 36 and 45 degrees.
-  for (const auto& [rings, sides] : {std::pair(40, 20), std::pair(10, 8)}) {
-    const Mesh mesh = torus_mesh(rings, sides, 3, 1);
-    const Mesh split = split_at_creases(mesh);
-    EXPECT_EQ(split.positions, mesh.positions);
-    EXPECT_EQ(split.normals, mesh.normals);
-    EXPECT_EQ(split.triangles, mesh.triangles);
-  }
+TEST(MeshFile, MeshesWithoutCreasesKeepTheirVertices) {
+  const Mesh mesh = torus_mesh(10, 8, 3, 1);
+  const Mesh split = split_at_creases(mesh);
+  EXPECT_EQ(split.positions, mesh.positions);
+  EXPECT_EQ(split.normals, mesh.normals);
+  EXPECT_EQ(split.triangles, mesh.triangles);
 }
 
-// A strip folded along its middle, whose triangles there turn by 5 degrees more and less in turn, as on curved sides. The
-// sides' normals are exact; along the fold they are those of either side, or the mean.
-Mesh folded_strip(float degrees, int length, bool has_mean_normals) {
-  const auto half = static_cast<float>(degrees / 2 * M_PI / 180), lean = static_cast<float>(2.5 * M_PI / 180);
-  Mesh mesh;
-  const auto add = [&](float x, float y, float z, float turn) {
-    for (const float value : {x, y, z}) mesh.positions.push_back(value);
-    for (const float value : {std::sin(turn), 0.0f, std::cos(turn)}) mesh.normals.push_back(value);
-  };
-  for (int i = 0; i <= length; ++i) {
-    const auto y = static_cast<float>(i);
-    const float leaning = i % 4 < 2 ? half + lean : half - lean;
-    add(-std::cos(leaning), y, -std::sin(leaning), -half);
-    add(0, y, 0, has_mean_normals ? 0 : i % 3 == 0 ? half : -half);
-    add(std::cos(leaning), y, -std::sin(leaning), half);
-    if (i == 0) continue;
-    const auto at = static_cast<std::uint32_t>(3 * i);
-    for (const std::uint32_t a : {at - 3, at - 2}) {
-      for (const std::uint32_t corner : {a, a + 1, a + 4, a, a + 4, a + 3}) mesh.triangles.push_back(corner);
+TEST(MeshFile, FirstSidesKeepTheirVertices) {
+  const Mesh mesh = cube_mesh(2), split = split_at_creases(mesh);
+  EXPECT_TRUE(split.creases.vertices.empty());
+  ASSERT_EQ(split.triangles.size(), mesh.triangles.size());
+  std::set<std::uint32_t> seen;
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
+    if (seen.insert(mesh.triangles[c]).second) {
+      EXPECT_EQ(split.triangles[c], mesh.triangles[c]);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(split.positions[3 * std::size_t{split.triangles[c]} + axis],
+                mesh.positions[3 * std::size_t{mesh.triangles[c]} + axis]);
     }
   }
-  return mesh;
-}
-
-TEST(MeshFile, CreasesGoOnWhereTrianglesLean) {
-  const int length = 20;
-  // At either end but one edge of the crease meets a vertex.
-  EXPECT_EQ(crease_normals(folded_strip(27, length, false)).vertices.size(), length - 1u);
-  // The mean is what the server gives to sides that are to be shaded as one.
-  EXPECT_EQ(crease_normals(folded_strip(24, length, true)).vertices.size(), 0u);
-  EXPECT_EQ(crease_normals(folded_strip(18, length, false)).vertices.size(), 0u);
 }
 
 TEST(MeshFile, CreasesCanStaySmooth) {

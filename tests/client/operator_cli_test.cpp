@@ -19,7 +19,8 @@ TEST_F(OperatorCliTest, KeepsOperators) {
   EXPECT_EQ(run("operator put '" + path("my fold.json") + "' --name other --json"), 0) << err_;
   EXPECT_TRUE(absl::StrContains(out_, "\"name\":\"other\"")) << out_;
   EXPECT_EQ(run("operator ls"), 0);
-  EXPECT_TRUE(absl::StartsWith(out_, "NAME                     KIND           FIELDS      VERSION ARGUMENTS\n")) << out_;
+  EXPECT_TRUE(absl::StartsWith(out_, "NAME                     KIND           FIELDS      VERSION ARGUMENTS\n"))
+      << out_;
   EXPECT_TRUE(absl::StrContains(out_, "\nmy_fold ")) << out_;
   EXPECT_EQ(run("operator ls --json"), 0);
   EXPECT_TRUE(absl::StartsWith(out_, R"({"operators":[{"name":)")) << out_;

@@ -140,6 +140,11 @@ TEST_F(MeshBricks, PartsThatAreNoneAreRefused) {
   refused = client_.mesh_bricks(simplified).status();
   EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_NE(refused.message().find("simplification_error = 0.1: expected none"), std::string::npos) << refused;
+  simplified.mutable_mesh()->clear_simplification_error();
+  simplified.mutable_mesh()->set_crease_normals(true);
+  refused = client_.mesh_bricks(simplified).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_NE(refused.message().find("crease_normals = true: expected none"), std::string::npos) << refused;
   *request.mutable_mesh()->mutable_scene() = named("none");
   EXPECT_EQ(client_.mesh_bricks(request).status().code(), absl::StatusCode::kNotFound);
 }

@@ -1,6 +1,8 @@
 // MeshService: what a request may state, determinism, and a cost that follows the surface.
 #include <gtest/gtest.h>
+#include <isofield/client.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -236,6 +238,47 @@ TEST_F(Mesh, CountsItsBodiesAndVoidsAndLeavesThemOut) {
   check({2, 0, 1, 1}, ball(1) + ball(0.5));
   request.set_simplification_error(0.005);
   check({2, 0, 1, 1}, ball(1) + ball(0.5));
+}
+
+TEST_F(Mesh, TellsTheNormalsOfCreases) {
+  // Its sides lie between the lattice's planes: where an edge runs along a cell's edge, some vertices are cut off.
+  const v1::Scene scene = test_support::scene_of_nodes(R"(
+    {"box": {"center": [0, 0, 0], "half_size": [1.03, 0.77, 0.61], "range": 0.5}})");
+  auto client = Client::connect(shared_daemon().address());
+  ASSERT_TRUE(client.ok()) << client.status();
+  v1::MeshRequest request = mesh_request(inlined(scene), 0.1);
+  const auto plain = client->mesh(request);
+  ASSERT_TRUE(plain.ok()) << plain.status();
+  EXPECT_TRUE(plain->creases.vertices.empty());
+  request.set_crease_normals(true);
+  for (const double error : {0.0, 0.01}) {
+    if (error > 0) request.set_simplification_error(error);
+    const auto mesh = client->mesh(request);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    const auto& [vertices, normals, corners] = mesh->creases;
+    // Two wedges along the edges, three at the corners.
+    EXPECT_GE(vertices.size(), error > 0 ? 24u : 380u);
+    std::vector<float> of_corners;
+    for (const std::uint32_t vertex : mesh->triangles) {
+      const auto wedge = std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin();
+      const bool has_wedge = static_cast<std::size_t>(wedge) < vertices.size();
+      const float* normal = has_wedge ? &normals[3 * wedge] : &mesh->normals[3 * std::size_t{vertex}];
+      of_corners.insert(of_corners.end(), normal, normal + 3);
+    }
+    for (std::size_t i = 0; i < corners.size(); i += 2) {
+      std::copy_n(&normals[3 * std::size_t{corners[i + 1]}], 3, &of_corners[3 * std::size_t{corners[i]}]);
+    }
+    for (std::size_t c = 0; c < of_corners.size(); c += 3) {
+      const float* n = &of_corners[c];
+      EXPECT_NEAR(std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])}), 1, 1e-3) << "that of a side of the box";
+    }
+    if (error > 0) continue;
+    EXPECT_EQ(mesh->positions, plain->positions);
+    EXPECT_EQ(mesh->normals, plain->normals);
+    EXPECT_EQ(mesh->triangles, plain->triangles);
+  }
+  request.set_omit_normals(true);
+  EXPECT_EQ(client->mesh(request).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
 TEST_F(Mesh, SaysWhichPrimitiveIsTooThinForItsCells) {

@@ -28,13 +28,13 @@ std::vector<std::string> row_of(const v1::SceneSummary& summary) {
 }
 
 const Catalog<v1::SceneSummary>& scenes() {
-  static const auto* const kScenes = new Catalog<v1::SceneSummary>{
-      "scenes",
-      &Client::list_scenes,
-      &Client::delete_scene,
-      describe,
-      {{"NAME", -32}, {"VERSION", 10}, {"NODES", 10}, {"PRIMITIVES", 12}, {"BYTES", 14}},
-      row_of};
+  static const auto* const kScenes =
+      new Catalog<v1::SceneSummary>{"scenes",
+                                    &Client::list_scenes,
+                                    &Client::delete_scene,
+                                    describe,
+                                    {{"NAME", -32}, {"VERSION", 10}, {"NODES", 10}, {"PRIMITIVES", 12}, {"BYTES", 14}},
+                                    row_of};
   return *kScenes;
 }
 

@@ -53,7 +53,7 @@ absl::StatusOr<FileUnit> file_unit(const Arguments& arguments, MeshFormat format
 }
 
 absl::Status mesh(const Context& context, const Arguments& arguments) {
-  const MeshFlags& flags = arguments.flags;
+  MeshFlags flags = arguments.flags;
   const std::string& output = arguments.output;
   const CreaseShading shading = arguments.smooth_creases ? CreaseShading::kSmooth : CreaseShading::kSharp;
   const auto format = mesh_format(output);
@@ -65,6 +65,7 @@ absl::Status mesh(const Context& context, const Arguments& arguments) {
     return usage_error(absl::StrCat("--units ", arguments.units, ": expected ", kUnitNames));
   }
   if (auto status = OutputFile::check(output); !status.ok()) return file_error(status);
+  flags.crease_normals = shading == CreaseShading::kSharp && names_creases(*format);
   auto client = context.connect();
   if (!client.ok()) return client.status();
   double seconds = 0;

@@ -63,6 +63,7 @@ absl::StatusOr<v1::MeshRequest> MeshFlags::message() const {
   if (tolerance) request.set_tolerance(*tolerance);
   if (simplify) request.set_simplification_error(*simplify);
   request.set_omit_normals(omit_normals);
+  request.set_crease_normals(crease_normals && !omit_normals);
   request.set_largest_body(largest_body);
   request.set_fill_voids(fill_voids);
   return request;

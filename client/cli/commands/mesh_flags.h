@@ -20,6 +20,8 @@ struct MeshFlags {
   std::vector<double> bounds;  // x0, y0, z0, x1, y1, z1, or empty
   std::optional<double> iso, tolerance, simplify;
   bool omit_normals = false, largest_body = false, fill_voids = false;
+  // Whether the mesh is to have Mesh::creases, where it has normals. No option: commands know what they draw or write.
+  bool crease_normals = false;
   ImportFlags import;
 
   void add_to(CLI::App& command);

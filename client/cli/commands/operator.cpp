@@ -38,13 +38,13 @@ std::vector<std::string> row_of(const v1::OperatorSummary& summary) {
 }
 
 const Catalog<v1::OperatorSummary>& operators() {
-  static const auto* const kOperators = new Catalog<v1::OperatorSummary>{
-      "operators",
-      &Client::list_operators,
-      &Client::delete_operator,
-      describe,
-      {{"NAME", -24}, {"KIND", -14}, {"FIELDS", -9}, {"VERSION", 9}, {"ARGUMENTS", 0}},
-      row_of};
+  static const auto* const kOperators =
+      new Catalog<v1::OperatorSummary>{"operators",
+                                       &Client::list_operators,
+                                       &Client::delete_operator,
+                                       describe,
+                                       {{"NAME", -24}, {"KIND", -14}, {"FIELDS", -9}, {"VERSION", 9}, {"ARGUMENTS", 0}},
+                                       row_of};
   return *kOperators;
 }
 

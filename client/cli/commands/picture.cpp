@@ -29,6 +29,7 @@ absl::Status parse_size(const std::string& text, RenderOptions& options) {
 }  // namespace
 
 void PictureFlags::add_to(CLI::App& command) {
+  mesh.crease_normals = true;
   mesh.add_to(command);
   command.add_option("-o,--output", output, "Picture to write (.png)")->required();
   command.add_option("--size", size, "WIDTHxHEIGHT of the picture in pixels, each within [16, 8192]")

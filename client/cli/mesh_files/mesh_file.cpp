@@ -16,6 +16,10 @@ std::optional<MeshFormat> mesh_format(const std::string& path) {
   return std::nullopt;
 }
 
+bool names_creases(MeshFormat format) {
+  return format == MeshFormat::kGlb || format == MeshFormat::kObj;
+}
+
 namespace {
 
 absl::Status write_scaled(const Mesh& mesh, MeshFormat format, const std::string& name, OutputFile& file,

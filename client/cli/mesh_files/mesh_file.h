@@ -15,6 +15,9 @@ enum class MeshFormat { kGlb, kObj, kPly, kStl };
 // By the extension: .glb, .obj, .ply or .stl.
 std::optional<MeshFormat> mesh_format(const std::string& path);
 
+// Whether files of a format have room for a normal for each side of a crease.
+bool names_creases(MeshFormat format);
+
 // On creases: one for each side, where the format has room for that (GLB, by more vertices, and OBJ), or one a vertex.
 enum class CreaseShading { kSharp, kSmooth };
 
@@ -24,8 +27,8 @@ struct FileUnit {
   std::string name;  // of the unit that they are in then; empty: the file does not state one
 };
 
-// Writes a mesh, with normals where it has them; `name` becomes the object's name where the format has one. Does not
-// commit.
+// Writes a mesh, with normals where it has them, and with those of Mesh::creases where these are to be sharp; `name`
+// becomes the object's name where the format has one. Does not commit.
 absl::Status write_mesh(const Mesh& mesh, MeshFormat format, const std::string& name, OutputFile& file,
                         CreaseShading shading = CreaseShading::kSharp, const FileUnit& unit = {});
 

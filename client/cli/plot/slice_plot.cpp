@@ -68,8 +68,7 @@ Drawing draw(const Slice& slice, const std::array<double, 2>& spacing, const std
   const Axes axes{std::floor(left) + 0.5, std::floor(top) + 0.5, width, height, 0,   across, 0, up,
                   ticks_to(across),       ticks_to(up),          "u",   "v",    text};
   const auto [least, most] = std::minmax_element(slice.values.begin(), slice.values.end());
-  drawing.shade(shades(slice, *least, *most), static_cast<int>(slice.counts[0]), axes.upper_left(),
-                axes.lower_right());
+  drawing.shade(shades(slice, *least, *most), static_cast<int>(slice.counts[0]), axes.upper_left(), axes.lower_right());
   std::vector<Segment> others;
   for (std::size_t n = 1; n < slice.curves.size(); ++n) {
     const auto segments = segments_of(slice.curves[n], axes);

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-
 namespace isofield {
 
 // From where a picture is taken. Model space is right-handed with y up, as glTF has it; lengths are in model units.

@@ -104,7 +104,7 @@ Visibility thin_out(const Visibility& seen) {
 }
 
 glm::vec3 shade_sample(const Visibility& seen, std::size_t sample, int x, int y, const Camera& camera, float sky_seen,
-                    const glm::vec3& behind) {
+                       const glm::vec3& behind) {
   const float inverse_depth = seen.inverse_depth[sample];
   if (inverse_depth == 0) return behind;
   const float to_x = (2 * (static_cast<float>(x) + 0.5f) / static_cast<float>(seen.width) - 1) * camera.tan_x;

@@ -20,6 +20,13 @@ struct Mesh {
   std::vector<float> normals;
   // [m, 3]: vertex numbers.
   std::vector<std::uint32_t> triangles;
+  // Normals for the sides of creases, as v1::MeshCreases has them; empty unless the request asked for them.
+  struct Creases {
+    std::vector<std::uint32_t> vertices;  // [w]: of each wedge
+    std::vector<float> normals;           // [w, 3]
+    std::vector<std::uint32_t> corners;   // [c, 2]: 3 t + i for corner i of triangle t, and its wedge
+  };
+  Creases creases;
   v1::MeshSummary summary;
 
   std::size_t vertex_count() const { return positions.size() / 3; }

@@ -133,9 +133,9 @@ void add_stack(const Soma& soma, const std::vector<SwcSample>& samples, const Im
 // The index of the lower one of the two contours between which a point lies, or of the two nearest ones.
 std::size_t contour_below(const Soma& soma, const glm::dvec3& point) {
   const glm::dvec3 normal = soma.contours.front().normal;
-  const auto above = std::upper_bound(
-      soma.contours.begin(), soma.contours.end(), glm::dot(normal, point),
-      [&](double depth, const Contour& contour) { return depth < glm::dot(normal, contour.center); });
+  const auto above =
+      std::upper_bound(soma.contours.begin(), soma.contours.end(), glm::dot(normal, point),
+                       [&](double depth, const Contour& contour) { return depth < glm::dot(normal, contour.center); });
   const auto index = std::max<std::ptrdiff_t>(1, above - soma.contours.begin()) - 1;
   return std::min(static_cast<std::size_t>(index), soma.contours.size() - 2);
 }

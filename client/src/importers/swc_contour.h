@@ -1,9 +1,8 @@
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 namespace isofield {
 

@@ -4,9 +4,8 @@
 #include <absl/strings/string_view.h>
 
 #include <cstddef>
-#include <string>
-
 #include <glm/vec3.hpp>
+#include <string>
 
 namespace isofield {
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <string>
 
-#include <glm/vec3.hpp>
 #include "isofield/import.h"
 
 namespace isofield {

@@ -107,8 +107,8 @@ ContourStack stack_contours(const std::vector<Contour>& contours) {
   set_frame(contours, stack, aspect);
   std::vector<Ring> rings;
   for (const Contour& contour : contours) {
-    rings.push_back({glm::dot(stack.axes[2], contour.center - stack.origin),
-                     contour.major_length * contour.minor_length * aspect});
+    rings.push_back(
+        {glm::dot(stack.axes[2], contour.center - stack.origin), contour.major_length * contour.minor_length * aspect});
   }
   if (rings.front().depth > rings.back().depth) {
     stack.axes[2] = -stack.axes[2];

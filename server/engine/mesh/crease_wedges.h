@@ -17,7 +17,7 @@ struct CreaseWedges {
 };
 
 // Creases are rows of edges at which the triangles turn by 25 degrees or more; a single one is none, and cuts nothing.
-// Thin triangles, whose own direction says nothing, take that of the triangle at their longest edge.
+// Triangles face as face_directions() says.
 CreaseWedges crease_wedges(const Mesh& mesh);
 
 }  // namespace isofield::engine

@@ -1,0 +1,191 @@
+#include "engine/mesh/crease_normals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/mesh_sides.h"
+#include "engine/mesh/triangle.h"
+
+namespace isofield::engine {
+namespace {
+
+using blobtree::dvec3;
+
+// The cosine of 15 degrees. Triangles lean over curved sides by some degrees, so a crease is taken to go on along edges
+// that turn by less than 25, if the normal at one of their ends is that of a side.
+constexpr double kLeastAlong = 0.9659258262890683;
+// Of the two triangles at such an edge one faces at least half of that away from the normal at either end: cosine.
+constexpr double kHalfTurn = 0.9762960071199334;
+// Across an edge of a curved surface the normals at its ends lie midway between those of its triangles, and the normals
+// at the corners that face it turn by twice as much as the triangles. At a crease a normal is that of one side, and the
+// corners' turn by as much as the triangles; where creases are near one another they may say anything.
+constexpr double kMostOfTurn = 0.85, kLeastOfCorners = 0.9;
+// The mesher gives vertices on seams, which turn by less than a crease, the mean of both sides' normals.
+constexpr double kMeanOfTurn = 0.7;
+// Of a unit normal, what is left without its part along the edge.
+constexpr double kLeastAcross = 0.1;
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+double angle(const dvec3& a, const dvec3& b) {
+  return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+// kMayGoOn: part of a crease if it is in a row with one.
+enum class EdgeKind : std::uint8_t { kSmooth, kMayGoOn, kCrease };
+
+// Looks at the triangles around vertices that creases may pass through, which are few in most meshes. Their corners are
+// numbered anew.
+class CreaseFinder {
+ public:
+  explicit CreaseFinder(const Mesh& mesh) : mesh_(mesh) {
+    choose();
+    twins_ = find_twins(corners_, mesh_.positions.size() / 3);
+    directions_ = face_directions(mesh_.positions, corners_, twins_);
+  }
+
+  CreaseNormals normals() {
+    DisjointSets sides = find_sides();
+    const std::vector<bool> is_split = split_vertices(sides);
+    CreaseNormals out;
+    std::vector<std::uint32_t> wedge_of(corners_.size()), first_wedges(is_split.size(), kNone);
+    std::vector<dvec3> sums;  // of wedges
+    for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+      const std::uint32_t vertex = corners_[c];
+      if (!is_split[vertex]) continue;
+      const std::uint32_t first = sides.root(c);
+      if (first == c) {
+        wedge_of[c] = static_cast<std::uint32_t>(out.vertices.size());
+        out.vertices.push_back(vertex);
+        sums.emplace_back();
+        if (first_wedges[vertex] == kNone) first_wedges[vertex] = wedge_of[c];
+      }
+      const std::uint32_t wedge = wedge_of[c] = wedge_of[first];
+      if (wedge != first_wedges[vertex]) out.corners.insert(out.corners.end(), {3 * numbers_[c / 3] + c % 3, wedge});
+      sums[wedge] = sums[wedge] + directions_[c / 3] * angle_at(c);
+    }
+    for (std::size_t wedge = 0; wedge < sums.size(); ++wedge) {
+      const double size = length(sums[wedge]);
+      const dvec3 n = size > 0 ? sums[wedge] * (1 / size) : position_of(mesh_.normals, out.vertices[wedge]);
+      for (const double x : {n.x, n.y, n.z}) out.normals.push_back(static_cast<float>(x));
+    }
+    return out;
+  }
+
+ private:
+  dvec3 position(std::uint32_t corner) const { return position_of(mesh_.positions, corners_[corner]); }
+  dvec3 normal(std::uint32_t corner) const { return position_of(mesh_.normals, corners_[corner]); }
+  double angle_at(std::uint32_t corner) const {
+    const std::uint32_t after = next_corner(corner);
+    return angle(position(after) - position(corner), position(next_corner(after)) - position(corner));
+  }
+
+  void choose() {
+    const std::vector<std::uint32_t>& all = mesh_.triangles;
+    may_split_.resize(mesh_.positions.size() / 3);
+    for (std::size_t t = 0; t < all.size(); t += 3) {
+      const dvec3 n = normal_of(mesh_.positions, {all[t], all[t + 1], all[t + 2]});
+      const double least = kHalfTurn * length(n);
+      for (std::size_t c = t; c < t + 3; ++c) {
+        if (dot(n, position_of(mesh_.normals, all[c])) <= least) may_split_[all[c]] = true;
+      }
+    }
+    for (std::size_t t = 0; t < all.size(); t += 3) {
+      if (!may_split_[all[t]] && !may_split_[all[t + 1]] && !may_split_[all[t + 2]]) continue;
+      numbers_.push_back(static_cast<std::uint32_t>(t / 3));
+      corners_.insert(corners_.end(), {all[t], all[t + 1], all[t + 2]});
+    }
+  }
+
+  // Joins the corners at each vertex that lie on one side of its creases.
+  DisjointSets find_sides() {
+    const std::vector<EdgeKind> kinds = find_creases();
+    DisjointSets sides(corners_.size());
+    for_edges([&](std::uint32_t c, std::uint32_t d) {
+      if (kinds[c] == EdgeKind::kCrease) return;
+      if (may_split_[corners_[c]]) sides.join(c, next_corner(d));
+      if (may_split_[corners_[d]]) sides.join(next_corner(c), d);
+    });
+    return sides;
+  }
+
+  // Vertices with more than one side.
+  std::vector<bool> split_vertices(DisjointSets& sides) const {
+    std::vector<bool> has_side(may_split_.size()), is_split(may_split_.size());
+    for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+      const std::uint32_t vertex = corners_[c];
+      if (!may_split_[vertex] || sides.root(c) != c) continue;
+      if (has_side[vertex]) is_split[vertex] = true;
+      has_side[vertex] = true;
+    }
+    return is_split;
+  }
+
+  // Visits each inner edge by the corners at which its two sides begin.
+  template <class Visit>
+  void for_edges(const Visit& visit) const {
+    for (std::uint32_t c = 0; c < twins_.size(); ++c) {
+      if (twins_[c] != kNoTwin && c < twins_[c]) visit(c, twins_[c]);
+    }
+  }
+
+  // Returns the kinds of edges, each at the corner that is visited first. It leaves in may_split_ the vertices that
+  // have sides: those that a crease passes by two of their edges.
+  std::vector<EdgeKind> find_creases() {
+    std::vector<EdgeKind> kinds(twins_.size(), EdgeKind::kSmooth);
+    std::vector<std::uint32_t> creases(may_split_.size());  // around each vertex
+    DisjointSets rows(may_split_.size());                   // of edges that may be creases, by a vertex each
+    const auto count = [&](std::uint32_t c, std::uint32_t d) { ++creases[corners_[c]], ++creases[corners_[d]]; };
+    for_edges([&](std::uint32_t c, std::uint32_t d) {
+      kinds[c] = kind_of(c, d);
+      if (kinds[c] == EdgeKind::kCrease) count(c, d);
+      if (kinds[c] != EdgeKind::kSmooth) rows.join(corners_[c], corners_[d]);
+    });
+    std::vector<bool> has_crease(rows.size());  // by the rows' roots
+    for (std::uint32_t v = 0; v < rows.size(); ++v) {
+      if (creases[v] > 1) has_crease[rows.root(v)] = true;
+    }
+    for_edges([&](std::uint32_t c, std::uint32_t d) {
+      if (kinds[c] != EdgeKind::kMayGoOn || !has_crease[rows.root(corners_[c])]) return;
+      kinds[c] = EdgeKind::kCrease;
+      count(c, d);
+    });
+    for (std::size_t v = 0; v < creases.size(); ++v) may_split_[v] = creases[v] > 1;
+    return kinds;
+  }
+
+  EdgeKind kind_of(std::uint32_t c, std::uint32_t d) const {
+    const dvec3 &f = directions_[c / 3], &g = directions_[d / 3];
+    if (dot(f, g) > kLeastAlong) return EdgeKind::kSmooth;
+    const double turn = angle(f, g);
+    const dvec3 edge = position(next_corner(c)) - position(c);
+    const double size = length(edge);
+    const dvec3 along = size > 0 ? edge * (1 / size) : dvec3{0, 0, 1};
+    // The angle between the normal and the further triangle, as a part of the turn.
+    const auto part_of_turn = [&](const dvec3& n) {
+      const dvec3 across = n - along * dot(n, along);
+      return length(across) > kLeastAcross ? std::max(angle(across, f), angle(across, g)) / turn : 1;
+    };
+    const auto [least, most] = std::minmax({part_of_turn(normal(c)), part_of_turn(normal(next_corner(c)))});
+    if (most <= kMeanOfTurn) return EdgeKind::kSmooth;
+    if (dot(f, g) > kCreaseCosine) return most > kMostOfTurn ? EdgeKind::kMayGoOn : EdgeKind::kSmooth;
+    const double corners = angle(normal(next_corner(next_corner(c))), normal(next_corner(next_corner(d))));
+    return least > kMostOfTurn || turn >= kLeastOfCorners * corners ? EdgeKind::kCrease : EdgeKind::kSmooth;
+  }
+
+  const Mesh& mesh_;
+  std::vector<bool> may_split_;         // vertices
+  std::vector<std::uint32_t> numbers_;  // of the chosen triangles in the mesh
+  std::vector<std::uint32_t> corners_;  // of them: vertices
+  std::vector<std::uint32_t> twins_;
+  std::vector<dvec3> directions_;
+};
+
+}  // namespace
+
+CreaseNormals crease_normals(const Mesh& mesh) {
+  return CreaseFinder(mesh).normals();
+}
+
+}  // namespace isofield::engine
