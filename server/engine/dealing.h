@@ -13,7 +13,7 @@ namespace isofield::engine {
 // from it all cost the same. Neighbours that share memory stay together, by up to 64. (Meshes of a neuron by lavapipe
 // on two cores: 0.9 of the time.)
 template <class Job>
-void deal(std::vector<Job>& jobs, std::size_t begin, std::size_t end, std::uint32_t hands) {
+void deal(std::vector<Job>& jobs, std::size_t begin, std::size_t end, std::uint64_t hands) {
   constexpr std::size_t kMostTogether = 64, kLeastRounds = 16;
   const std::size_t count = end - begin;
   if (hands < 2) return;

@@ -21,7 +21,7 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
       written_(*device_, tier_two),
       fields_(*device_, kernels_, workers_, &written_),
       queue_(
-          device_->turns(),
+          device_->turns(), device_->profile(),
           [this](const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
                  const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
             return fields_.evaluate(scene, xyz, quantity, out, cancelled, std::move(submission));

@@ -12,11 +12,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Arrays of fewer bytes are copied in less time than a buffer over them takes to make.
-constexpr std::size_t kLeastBorrowed = 1u << 16;
-
 std::optional<Buffer> borrow(gpu::Device& device, std::span<std::byte> bytes) {
-  return bytes.size() < kLeastBorrowed ? std::nullopt : Buffer::borrow(device, bytes);
+  return bytes.size() < device.profile().borrowed_bytes ? std::nullopt : Buffer::borrow(device, bytes);
 }
 
 }  // namespace

@@ -36,13 +36,11 @@ std::optional<std::uint32_t> memory_type(const vk::PhysicalDeviceMemoryPropertie
   return std::nullopt;
 }
 
-// Integrated devices and lavapipe: the host reads device memory as fast as its own.
 bool worth_mapping(const Device::Impl& device, Flags flags, Buffer::Use use) {
   const Flags visible = Flag::eHostVisible | Flag::eHostCoherent;
   if ((flags & visible) != visible) return false;
   if (use != Buffer::Use::kDevice) return true;
-  const std::string& type = device.description.type;
-  return !device.always_stage && (type == "cpu" || type == "integrated");
+  return device.profile.maps_memory;
 }
 
 // Memory and all of a buffer of `bytes`.
@@ -102,7 +100,7 @@ absl::StatusOr<Buffer> Buffer::create(Device& device, std::size_t bytes, Use use
 std::optional<Buffer> Buffer::borrow(Device& device, std::span<std::byte> bytes) {
   Device::Impl& d = device.impl();
   const auto address = reinterpret_cast<std::uintptr_t>(bytes.data());
-  if (d.borrow_alignment == 0 || d.always_stage || bytes.empty() || address % kBorrowedAlignment != 0) {
+  if (d.borrow_alignment == 0 || bytes.empty() || address % kBorrowedAlignment != 0) {
     return std::nullopt;
   }
   // The pages that hold them; the device uses nothing else of these.

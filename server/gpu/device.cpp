@@ -94,12 +94,11 @@ std::optional<std::uint32_t> compute_family(const vk::raii::PhysicalDevice& devi
   return std::nullopt;
 }
 
-// Device::Impl::borrow_alignment. Only of devices that are the host's processor: others read their own memory faster.
+// Device::Impl::borrow_alignment of a device that can borrow.
 std::size_t borrow_alignment(const vk::raii::PhysicalDevice& device) {
   const vk::PhysicalDeviceProperties properties = device.getProperties();
   const auto extensions = device.enumerateDeviceExtensionProperties();
-  const bool borrows = properties.deviceType == vk::PhysicalDeviceType::eCpu &&
-                       properties.limits.minStorageBufferOffsetAlignment <= kBorrowedAlignment &&
+  const bool borrows = properties.limits.minStorageBufferOffsetAlignment <= kBorrowedAlignment &&
                        std::any_of(extensions.begin(), extensions.end(), [](const vk::ExtensionProperties& e) {
                          return std::string_view(e.extensionName) == VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME;
                        });
@@ -152,18 +151,24 @@ absl::Status pick_physical(const DeviceOptions& options, Device::Impl& impl) {
       absl::StrCat(VK_API_VERSION_MAJOR(properties.apiVersion), ".", VK_API_VERSION_MINOR(properties.apiVersion), ".",
                    VK_API_VERSION_PATCH(properties.apiVersion));
   d.type = name_of(candidates[*choice].type);
-  // Mesa's lavapipe: a thread a processor, 16 at most (lp_cs_tpool.c).
-  if (d.type == "cpu") d.dispatch_runs = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
   d.subgroup_size = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
   d.max_buffer_bytes = properties.limits.maxStorageBufferRange;
   return absl::OkStatus();
+}
+
+void choose_profile(const DeviceOptions& options, Device::Impl& impl) {
+  DeviceProfile& profile = impl.profile;
+  profile = profile_of(impl.description, std::thread::hardware_concurrency());
+  if (options.always_stage) profile.maps_memory = profile.borrows_memory = false;
+  if (profile.borrows_memory) impl.borrow_alignment = borrow_alignment(*impl.physical);
+  profile.borrows_memory = impl.borrow_alignment > 0;
+  impl.turns.emplace(profile.patience);
 }
 
 void create_device(Device::Impl& impl) {
   impl.queue_family = *compute_family(*impl.physical);
   const float priority = 1;
   const vk::DeviceQueueCreateInfo queue({}, impl.queue_family, 1, &priority);
-  impl.borrow_alignment = borrow_alignment(*impl.physical);
   std::vector<const char*> extensions;
   if (impl.borrow_alignment > 0) extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
   impl.device.emplace(*impl.physical, vk::DeviceCreateInfo({}, queue, {}, extensions));
@@ -191,9 +196,9 @@ absl::StatusOr<std::unique_ptr<Device>> Device::create(const DeviceOptions& opti
   try {
     auto impl = std::make_unique<Impl>();
     impl->on_validation_message = options.on_validation_message;
-    impl->always_stage = options.always_stage;
     if (absl::Status s = create_instance(options, *impl); !s.ok()) return s;
     if (absl::Status s = pick_physical(options, *impl); !s.ok()) return s;
+    choose_profile(options, *impl);
     create_device(*impl);
     return std::unique_ptr<Device>(new Device(std::move(impl)));
   } catch (const vk::SystemError& error) {
@@ -206,6 +211,9 @@ absl::StatusOr<std::unique_ptr<Device>> Device::create(const DeviceOptions& opti
 const DeviceDescription& Device::description() const {
   return impl_->description;
 }
+const DeviceProfile& Device::profile() const {
+  return impl_->profile;
+}
 std::uint64_t Device::validation_messages() const {
   return impl_->validation_messages;
 }
@@ -213,7 +221,7 @@ std::uint64_t Device::allocated_bytes() const {
   return impl_->allocated_bytes;
 }
 Turns& Device::turns() {
-  return impl_->turns;
+  return *impl_->turns;
 }
 
 }  // namespace isofield::gpu

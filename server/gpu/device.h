@@ -9,6 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "gpu/device_description.h"
+#include "gpu/device_profile.h"
 #include "gpu/turns.h"
 
 namespace isofield::gpu {
@@ -24,16 +26,6 @@ struct DeviceOptions {
   std::function<void(const std::string&)> on_validation_message;
 };
 
-struct DeviceDescription {
-  std::string name, driver, vulkan_version;
-  std::string type;  // "cpu", "integrated", "discrete", "virtual", "other"
-  std::uint32_t subgroup_size = 0;
-  // Runs of equal length into which the driver cuts a dispatch's workgroups, one a thread of its own; 1: it hands them
-  // out as it goes.
-  std::uint32_t dispatch_runs = 1;
-  std::uint64_t max_buffer_bytes = 0;  // of one binding
-};
-
 // Thread-safe. Must outlive all that is made from it.
 class Device {
  public:
@@ -42,6 +34,7 @@ class Device {
   ~Device();
 
   const DeviceDescription& description() const;
+  const DeviceProfile& profile() const;
   // Validation messages so far.
   std::uint64_t validation_messages() const;
   // Bytes of buffers in use now. Some MiB more of small ones are kept to be used again.

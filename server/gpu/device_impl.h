@@ -37,14 +37,14 @@ struct Device::Impl {
   std::optional<vk::raii::Device> device;
   std::optional<vk::raii::Queue> queue;
   std::mutex queue_mutex;
-  Turns turns;
+  std::optional<Turns> turns;
   std::uint32_t queue_family = 0;
   std::optional<vk::raii::DescriptorSetLayout> set_layout;
   std::optional<vk::raii::PipelineLayout> pipeline_layout;
   vk::PhysicalDeviceMemoryProperties memory;
 
   DeviceDescription description;
-  bool always_stage = false;
+  DeviceProfile profile;
   // What addresses and sizes of host memory that a buffer lies over are multiples of; 0: none does.
   std::size_t borrow_alignment = 0;
   std::function<void(const std::string&)> on_validation_message;

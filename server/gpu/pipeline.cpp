@@ -36,7 +36,7 @@ absl::StatusOr<SharedPipeline> Pipeline::create(Device& device, std::span<const 
   } catch (const vk::SystemError& error) {
     return to_status(error, "creating a pipeline");
   }
-  if (device.description().type == "cpu") {
+  if (device.profile().compiles_late) {
     if (absl::Status s = compile_now(device, pipeline); !s.ok()) return s;
   }
   return pipeline;

@@ -32,7 +32,7 @@ void Turns::release() {
   is_taken_ = !waiters_.empty();
   if (!is_taken_) return;
   auto next = waiters_.begin();
-  if (++picks_ % kPatience != 0) {
+  if (++picks_ % patience_ != 0) {
     next = std::min_element(waiters_.begin(), waiters_.end(),
                             [](const Waiter* a, const Waiter* b) { return is_more_urgent(a->urgency, b->urgency); });
   }

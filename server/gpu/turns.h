@@ -8,6 +8,8 @@
 #include <memory>
 #include <mutex>
 
+#include "gpu/device_profile.h"
+
 namespace isofield::gpu {
 
 using Deadline = std::chrono::system_clock::time_point;
@@ -23,9 +25,6 @@ struct Urgency {
 };
 // True where `a` goes before `b`; of equal ones the first to come.
 bool is_more_urgent(const Urgency& a, const Urgency& b);
-
-// Of kPatience picks, the last goes to the one that has waited longest, so that none waits for ever.
-inline constexpr std::uint64_t kPatience = 4;
 
 // Thread-safe. Must outlive its turns.
 class Turns {
@@ -45,6 +44,9 @@ class Turns {
     std::unique_ptr<Turns, Release> turns_;
   };
 
+  // Of `patience` picks, the last goes to the one that has waited longest, so that none waits for ever.
+  explicit Turns(std::uint64_t patience = DeviceProfile().patience) : patience_(patience) {}
+
   // Waits for it. A thread that holds one must not ask for another.
   Turn take(const Urgency& urgency);
   // Threads in take().
@@ -58,6 +60,7 @@ class Turns {
   };
   void release();
 
+  const std::uint64_t patience_;
   mutable std::mutex mutex_;
   std::list<Waiter*> waiters_;  // by arrival
   bool is_taken_ = false;

@@ -28,6 +28,13 @@ void InfoService::fill_device(v1::DeviceInfo& device) const {
   device.set_type(d.type);
   device.set_subgroup_size(d.subgroup_size);
   device.set_max_buffer_bytes(d.max_buffer_bytes);
+  for (const gpu::ProfileNumber& n : gpu::profile_numbers()) {
+    v1::TuningNumber& number = *device.add_profile();
+    number.set_name(n.name);
+    number.set_value(n.of(engine_.device().profile()));
+    number.set_unit(n.unit);
+    number.set_meaning(n.meaning);
+  }
 }
 
 void InfoService::fill_limits(v1::Limits& limits) const {

@@ -41,6 +41,17 @@ TEST_F(CliTest, KeepsScenes) {
   EXPECT_TRUE(absl::StrContains(out_, "\"version\":\"0.0.0-fake\"")) << out_;
 }
 
+TEST_F(CliTest, TellsTheNumbersThatFitTheDevice) {
+  EXPECT_EQ(run("info --device"), 0) << err_;
+  EXPECT_TRUE(absl::StrContains(out_, "device   Fake GPU")) << out_;
+  EXPECT_TRUE(absl::StrContains(out_, "16384  bricks of a mesh in one submission (bricks)")) << out_;
+  EXPECT_EQ(run("info --device --json"), 0) << err_;
+  EXPECT_TRUE(absl::StartsWith(out_, "{\"name\":\"Fake GPU\"")) << out_;
+  EXPECT_TRUE(absl::StrContains(out_, "{\"name\":\"slab_bricks\",\"value\":16384,\"unit\":\"bricks\"")) << out_;
+  EXPECT_EQ(run("info"), 0) << err_;
+  EXPECT_FALSE(absl::StrContains(out_, "slab_bricks")) << out_;
+}
+
 TEST_F(CliTest, ImportsWithoutAServer) {
   write_file(path("a.swc"), "1 3 0 0 0 1 -1\n2 3 5 0 0 1 1\nrubbish\n3 3 5 5 0 1 2\n");
   address_ = "127.0.0.1:1";

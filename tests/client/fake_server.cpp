@@ -304,6 +304,12 @@ class FakeServer::Infos : public v1::InfoService::Service {
   grpc::Status GetInfo(grpc::ServerContext*, const v1::GetInfoRequest*, v1::GetInfoResponse* response) override {
     if (auto status = owner_.admit_read(); !status.ok()) return status;
     response->set_version("0.0.0-fake");
+    response->mutable_device()->set_name("Fake GPU");
+    v1::TuningNumber& number = *response->mutable_device()->add_profile();
+    number.set_name("slab_bricks");
+    number.set_value(16'384);
+    number.set_unit("bricks");
+    number.set_meaning("bricks of a mesh in one submission");
     return grpc::Status::OK;
   }
 

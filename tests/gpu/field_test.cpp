@@ -312,9 +312,9 @@ TEST(FieldOnDevice, AsksForNoTurnBesideTheOneItWasGiven) {
   for (const int nodes : {1, 3, 80}) {
     const engine::SceneLease lease = resident(test_support::random_scene(3, {.nodes = nodes, .all_operators = false}));
     engine::FieldEvaluator fresh(device(), kernels(), workers());
-    constexpr std::size_t kCount = engine::EvaluationQueue::kJoinedPoints;
-    const std::vector<float> xyz = random_points(1, kCount, 2);
-    std::vector<float> out(4 * kCount);
+    const std::size_t count = device().profile().joined_points;
+    const std::vector<float> xyz = random_points(1, count, 2);
+    std::vector<float> out(4 * count);
     for (int batch = 0; batch < 40; ++batch) {  // until an index would be worth its while
       gpu::Turns::Turn turn = device().turns().take({});
       ASSERT_TRUE(fresh.evaluate(*lease, xyz, Quantity::kValueAndGradient, out, {}, {{}, std::move(turn)}).ok());

@@ -73,6 +73,9 @@ TEST_F(Command, KeepsScenesOnTheServer) {
   outcome = isofield({"info"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.output.find("resident 1 scenes"), std::string::npos) << outcome.output;
+  outcome = isofield({"info", "--device"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.output.find("slab_bricks"), std::string::npos) << outcome.output;
 }
 
 TEST_F(Command, EvaluatesAFileOfPoints) {

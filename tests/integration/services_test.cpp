@@ -125,6 +125,13 @@ TEST(Services, InfoStatesDeviceAndLimits) {
   EXPECT_FALSE(info.device().type().empty());
   EXPECT_GT(info.device().subgroup_size(), 0u);
   EXPECT_GE(info.device().max_buffer_bytes(), 1u << 27);
+  EXPECT_GE(info.device().profile_size(), 20);
+  for (const v1::TuningNumber& number : info.device().profile()) {
+    EXPECT_FALSE(number.name().empty() || number.unit().empty() || number.meaning().empty()) << number.name();
+    if (number.name() == "points_per_job") {
+      EXPECT_EQ(number.value(), info.device().subgroup_size());
+    }
+  }
   EXPECT_GE(info.limits().max_nodes(), 100'000u);
   EXPECT_GE(info.limits().max_primitives(), 100'000u);
   EXPECT_GE(info.limits().max_stack_depth(), 8u);

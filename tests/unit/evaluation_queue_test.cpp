@@ -12,6 +12,7 @@ namespace isofield::engine {
 namespace {
 
 constexpr gpu::Deadline kNow = gpu::Deadline() + std::chrono::hours(1);
+constexpr gpu::DeviceProfile kProfile;
 constexpr gpu::Deadline kSoon = kNow + std::chrono::hours(1), kLater = kNow + std::chrono::hours(2);
 
 // Never looked into.
@@ -38,7 +39,7 @@ class Queue : public testing::Test {
   explicit Queue(const QueueOptions& options = {})
       : held_(turns_.take({})),
         queue_(
-            turns_,
+            turns_, kProfile,
             [this](const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
                    const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
               return run(scene, xyz, quantity, out, cancelled, std::move(submission));
@@ -154,11 +155,11 @@ TEST_F(Queue, PriorityThenDeadlineThenArrival) {
 }
 
 TEST_F(Queue, NoMoreIsJoinedThanTheBound) {
-  constexpr std::size_t kMost = EvaluationQueue::kSmallPoints;
+  constexpr std::size_t kMost = kProfile.small_points;
   for (int i = 0; i < 6; ++i) wait_with(request(static_cast<float>(i), kMost));
   release();
   ASSERT_EQ(submissions_.size(), 2u);
-  EXPECT_EQ(submissions_[0].xyz.size(), 3 * EvaluationQueue::kJoinedPoints);
+  EXPECT_EQ(submissions_[0].xyz.size(), 3 * kProfile.joined_points);
   EXPECT_EQ(submissions_[1].xyz.size(), 3 * 2 * kMost);
 }
 
@@ -174,20 +175,20 @@ TEST_F(Queue, TheOldestIsNotPassedForEver) {
 }
 
 TEST_F(Queue, LargeBatchesGoAloneAndAreNotShort) {
-  wait_with(request(1, EvaluationQueue::kSmallPoints + 1));
+  wait_with(request(1, kProfile.small_points + 1));
   wait_with(request(2));
   wait_with(request(3));
   release();
   ASSERT_EQ(submissions_.size(), 2u);
   EXPECT_EQ(values(0), (Values{2, 3}));
   EXPECT_FALSE(submissions_[1].urgency.is_short);
-  EXPECT_EQ(requests_[0]->out, Values(EvaluationQueue::kSmallPoints + 1, 1.0f));
+  EXPECT_EQ(requests_[0]->out, Values(kProfile.small_points + 1, 1.0f));
 }
 
 TEST_F(Queue, APassedDeadlineIsAnsweredWithoutARun) {
   wait_with(request(1, 1, {.deadline = kSoon}));
   wait_with(request(2));
-  wait_with(request(3, EvaluationQueue::kSmallPoints + 1, {.deadline = kSoon}));
+  wait_with(request(3, kProfile.small_points + 1, {.deadline = kSoon}));
   now_ = kSoon;
   release();
   EXPECT_EQ(requests_[0]->status.code(), absl::StatusCode::kDeadlineExceeded);
@@ -243,12 +244,12 @@ class DelayedQueue : public Queue {
 TEST_F(DelayedQueue, AFullSubmissionIsNotHeldBack) {
   held_ = {};
   for (int i = 0; i < 4; ++i) {
-    Request& r = request(static_cast<float>(i), EvaluationQueue::kSmallPoints);
+    Request& r = request(static_cast<float>(i), kProfile.small_points);
     r.thread = std::thread([this, &r] { r.status = queue_.evaluate(r.batch); });
   }
   release();
   ASSERT_EQ(submissions_.size(), 1u);
-  EXPECT_EQ(submissions_[0].xyz.size(), 3 * EvaluationQueue::kJoinedPoints);
+  EXPECT_EQ(submissions_[0].xyz.size(), 3 * kProfile.joined_points);
 }
 
 }  // namespace

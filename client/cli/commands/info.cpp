@@ -1,6 +1,7 @@
 #include <absl/strings/str_format.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
 
 #include "commands/context.h"
 #include "json_output.h"
@@ -10,13 +11,28 @@ namespace {
 
 constexpr double kMiB = 1 << 20;
 
-absl::Status info(const Context& context) {
+// The device, and the numbers that the server has chosen for it.
+void print_device(const v1::DeviceInfo& device) {
+  absl::PrintF("device   %s (%s)\n", device.name(), device.type());
+  absl::PrintF("driver   %s; Vulkan %s\n", device.driver(), device.vulkan_version());
+  absl::PrintF("limits   subgroups of %u; %u bytes a buffer\n", device.subgroup_size(), device.max_buffer_bytes());
+  absl::PrintF("profile\n");
+  for (const v1::TuningNumber& n : device.profile()) {
+    absl::PrintF("  %-26s %12u  %s (%s)\n", n.name(), n.value(), n.meaning(), n.unit());
+  }
+}
+
+absl::Status info(const Context& context, bool of_device) {
   auto client = context.connect();
   if (!client.ok()) return client.status();
   const auto info = client->info();
   if (!info.ok()) return info.status();
   if (context.json) {
-    print_json(*info);
+    of_device ? print_json(info->device()) : print_json(*info);
+    return absl::OkStatus();
+  }
+  if (of_device) {
+    print_device(info->device());
     return absl::OkStatus();
   }
   const auto& device = info->device();
@@ -42,9 +58,10 @@ absl::Status info(const Context& context) {
 }  // namespace
 
 void add_info_command(CLI::App& app, Context& context) {
-  app.add_subcommand("info", "Tell what the server is, what it admits and what it holds")->callback([&context] {
-    context.outcome = info(context);
-  });
+  auto* const command = app.add_subcommand("info", "Tell what the server is, what it admits and what it holds");
+  const auto of_device = std::make_shared<bool>(false);
+  command->add_flag("--device", *of_device, "Tell of the device alone, with the numbers that fit the work to it");
+  command->callback([&context, of_device] { context.outcome = info(context, *of_device); });
 }
 
 }  // namespace isofield

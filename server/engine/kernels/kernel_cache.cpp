@@ -94,7 +94,7 @@ KernelConstants KernelKind::constants() const {
 }
 
 const shaders::Spirv& KernelCache::of(const shaders::InRounds& shader) const {
-  return device_.description().type == "cpu" ? shader.narrow : shader.wide;
+  return device_.profile().has_narrow_workgroups ? shader.narrow : shader.wide;
 }
 
 absl::StatusOr<gpu::SharedPipeline> KernelCache::get(const shaders::Spirv& shader, const KernelKind& kind,

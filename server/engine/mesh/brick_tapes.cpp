@@ -9,7 +9,7 @@ namespace isofield::engine {
 
 BrickTapes::BrickTapes(gpu::Device& device, const Kernels& kernels, const ResidentScene& scene,
                        blobtree::BrickList& list)
-    : dispatch_runs_(device.description().dispatch_runs),
+    : dispatch_runs_(device.profile().dispatch_runs),
       kernels_(kernels),
       scene_(scene),
       bricks_(list.bricks),

@@ -54,7 +54,7 @@ class BrickTapes {
   }
 
  private:
-  std::uint32_t dispatch_runs_;
+  std::uint64_t dispatch_runs_;
   const Kernels& kernels_;
   const ResidentScene& scene_;
   const std::vector<blobtree::Brick>& bricks_;

@@ -32,10 +32,6 @@ using gpu::Buffer;
 constexpr std::uint32_t kCells = blobtree::kCellsPerBrick;
 constexpr std::uint32_t kEdgeCorners = blobtree::kBrickCells + 1;
 constexpr std::uint32_t kCorners = kEdgeCorners * kEdgeCorners * kEdgeCorners;
-// Bricks of one submission, and instructions of their tapes: what a cancelled request still waits for, and others with
-// it; some 80 ms of gradient blends on two cores.
-constexpr std::uint32_t kSlab = 16'384;
-constexpr std::uint64_t kSlabInstructions = 1u << 16;
 using Constants = MeshConstants;
 using Pair = MeshStart;
 
@@ -113,9 +109,10 @@ class Run {
   // How many bricks from `first` on make a slab; at least one.
   std::uint32_t slab_from(std::uint32_t first) const {
     const auto total = static_cast<std::uint32_t>(list_.bricks.size());
+    const gpu::DeviceProfile& most = device_.profile();
     std::uint64_t instructions = 0;
     std::uint32_t end = first;
-    while (end < total && end - first < kSlab && (end == first || instructions < kSlabInstructions)) {
+    while (end < total && end - first < most.slab_bricks && (end == first || instructions < most.slab_instructions)) {
       instructions += list_.bricks[end++].tape_count;
     }
     return end - first;
@@ -266,7 +263,7 @@ class Run {
       if (has_vertices(b) && (kinds_[b] & kMayCrease) == may_crease) bricks.push_back(b);
     }
     if (bricks.empty()) return absl::OkStatus();
-    deal(bricks, 0, bricks.size(), device_.description().dispatch_runs);
+    deal(bricks, 0, bricks.size(), device_.profile().dispatch_runs);
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(kernels_.of(shader)));
     ISOFIELD_ASSIGN_OR_RETURN(Buffer placed, session.upload(std::span(bricks)));
     Constants constants = constants_;

@@ -12,8 +12,6 @@ namespace {
 
 using gpu::Buffer;
 
-// Quads of one submission and one output buffer.
-constexpr std::uint32_t kQuadSlab = 1u << 21;
 // CUT_FAN of shaders/lib/mesh_quads.glsl.
 constexpr std::uint32_t kCutFan = 2;
 
@@ -30,14 +28,15 @@ absl::Status QuadCutter::cut(const Buffer& positions, const Buffer& kinds, bool 
   cuts_.resize(total);
   ISOFIELD_ASSIGN_OR_RETURN(cuts_buffer_, Buffer::create(device_, std::size_t{4} * total, Buffer::Use::kDevice));
   ISOFIELD_ASSIGN_OR_RETURN(corners_, Buffer::create(device_, std::size_t{16} * total, Buffer::Use::kDevice));
+  const auto most = static_cast<std::uint32_t>(device_.profile().slab_quads);
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel,
                             kernels_.get(is_smooth ? shaders::kMeshQuadsSmooth : shaders::kMeshQuads));
-  for (std::uint32_t first = 0; first < total; first += kQuadSlab) {
+  for (std::uint32_t first = 0; first < total; first += most) {
     ISOFIELD_RETURN_IF_ERROR(check_(0.95));
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
     MeshConstants constants = constants_;
     constants.first = first;
-    constants.count = std::min(kQuadSlab, total - first);
+    constants.count = std::min(most, total - first);
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
         kernel, with_quads({{11, &positions}, {12, &cuts_buffer_}, {13, &kinds}, {14, &corners_}}), constants,
         mesh_groups(constants.count)));
@@ -70,12 +69,13 @@ absl::StatusOr<Buffer> QuadCutter::make(std::vector<std::uint32_t>& corners, std
   const std::uint32_t total = quad_count();
   corners.resize(std::size_t{6} * (total + fans()));
   positions.resize(std::size_t{3} * fans());
+  const auto most = static_cast<std::uint32_t>(device_.profile().slab_quads);
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shaders::kMeshTriangles));
   ISOFIELD_ASSIGN_OR_RETURN(Buffer centres,
                             Buffer::create(device_, std::size_t{12} * std::max(fans(), 1u), Buffer::Use::kDevice));
-  for (std::uint32_t first = 0; first < total; first += kQuadSlab) {
+  for (std::uint32_t first = 0; first < total; first += most) {
     ISOFIELD_RETURN_IF_ERROR(check_(0.96 + 0.03 * first / total));
-    const std::uint32_t count = std::min(kQuadSlab, total - first);
+    const std::uint32_t count = std::min(most, total - first);
     const std::size_t begin = std::size_t{6} * (first + fans_before(first));
     const std::size_t end = std::size_t{6} * (first + count + fans_before(first + count));
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));

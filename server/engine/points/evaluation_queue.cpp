@@ -13,10 +13,6 @@ std::size_t points_of(const PointBatch& batch) {
   return batch.xyz.size() / 3;
 }
 
-gpu::Urgency urgency_of(const PointBatch& batch) {
-  return {points_of(batch) <= EvaluationQueue::kSmallPoints, batch.priority, batch.deadline};
-}
-
 absl::Status deadline_exceeded() {
   return absl::DeadlineExceededError("the request's deadline has passed before it was run");
 }
@@ -32,9 +28,17 @@ EvaluationQueue::~EvaluationQueue() {
   dispatcher_.join();
 }
 
+bool EvaluationQueue::is_small(const PointBatch& batch) const {
+  return points_of(batch) <= profile_.small_points;
+}
+
+gpu::Urgency EvaluationQueue::urgency_of(const PointBatch& batch) const {
+  return {is_small(batch), batch.priority, batch.deadline};
+}
+
 void EvaluationQueue::submit(PointBatch batch, Done done) {
   if (batch.xyz.empty()) return done(absl::OkStatus());
-  if (points_of(batch) > kSmallPoints) return done(evaluate_large(batch));
+  if (!is_small(batch)) return done(evaluate_large(batch));
   auto self = std::make_unique<Waiting>(Waiting{.batch = std::move(batch), .done = std::move(done), .status = {}});
   Batches answered;
   {
@@ -133,15 +137,15 @@ gpu::Urgency EvaluationQueue::most_urgent() const {
 
 void EvaluationQueue::wait_for_more(std::unique_lock<std::mutex>& lock) {
   if (options_.delay.count() == 0) return;
-  more_came_.wait_for(lock, options_.delay, [&] { return waiting_points_ >= kJoinedPoints; });
+  more_came_.wait_for(lock, options_.delay, [&] { return waiting_points_ >= profile_.joined_points; });
 }
 
 // The first one, and those that can go with it in the order of their urgency.
 EvaluationQueue::Batches EvaluationQueue::take_next() {
   std::vector<std::unique_ptr<Waiting>*> order;
   for (auto& w : waiting_) order.push_back(&w);
-  const bool is_oldest_first = ++picks_ % gpu::kPatience == 0;
-  std::stable_sort(order.begin() + (is_oldest_first ? 1 : 0), order.end(), [](const auto* a, const auto* b) {
+  const bool is_oldest_first = ++picks_ % profile_.patience == 0;
+  std::stable_sort(order.begin() + (is_oldest_first ? 1 : 0), order.end(), [this](const auto* a, const auto* b) {
     return gpu::is_more_urgent(urgency_of((*a)->batch), urgency_of((*b)->batch));
   });
   const PointBatch& first = (*order.front())->batch;
@@ -150,7 +154,7 @@ EvaluationQueue::Batches EvaluationQueue::take_next() {
   for (std::unique_ptr<Waiting>* w : order) {
     const PointBatch& batch = (*w)->batch;
     if (batch.scene != first.scene || batch.quantity != first.quantity) continue;
-    if (!joined.empty() && points + points_of(batch) > kJoinedPoints) break;
+    if (!joined.empty() && points + points_of(batch) > profile_.joined_points) break;
     points += points_of(batch);
     joined.push_back(std::move(*w));
   }

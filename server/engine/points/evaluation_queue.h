@@ -38,7 +38,7 @@ struct PointBatch {
 };
 
 // Small batches that wait when the device becomes free, of one scene and one quantity, go to it together, the most
-// urgent first: higher priority, then earlier deadline, then first come; the last of every kPatience submissions is
+// urgent first: higher priority, then earlier deadline, then first come; the last of every `patience` submissions is
 // that of the batch that has waited longest. A large batch goes alone, and small ones pass between its pieces.
 //
 // A caller who finds nobody at it runs the next submission, with what is in it, so that a lone batch costs no change of
@@ -46,19 +46,20 @@ struct PointBatch {
 // destroyed.
 class EvaluationQueue {
  public:
-  // Batches up to this size are small, and so many points at most are joined.
-  static constexpr std::size_t kSmallPoints = 4096, kJoinedPoints = 16'384;
-
   // Runs a submission; FieldEvaluator::evaluate, where it is no test's.
   using Run =
       std::function<absl::Status(const ResidentScene&, std::span<const float> xyz, Quantity, std::span<float> out,
                                  const FieldEvaluator::Cancelled&, FieldEvaluator::Submission)>;
   using Clock = std::function<gpu::Deadline()>;
 
-  EvaluationQueue(gpu::Turns& turns, Run run, const QueueOptions& options, Clock now = std::chrono::system_clock::now)
-      : turns_(turns), run_(std::move(run)), options_(options), now_(std::move(now)), dispatcher_([this] {
-          dispatch();
-        }) {}
+  EvaluationQueue(gpu::Turns& turns, const gpu::DeviceProfile& profile, Run run, const QueueOptions& options,
+                  Clock now = std::chrono::system_clock::now)
+      : turns_(turns),
+        profile_(profile),
+        run_(std::move(run)),
+        options_(options),
+        now_(std::move(now)),
+        dispatcher_([this] { dispatch(); }) {}
   ~EvaluationQueue();
 
   // Called once with the outcome, when `out` is written: on the caller's thread, or on that of whoever ran the
@@ -83,6 +84,8 @@ class EvaluationQueue {
   };
   using Batches = std::vector<std::unique_ptr<Waiting>>;
 
+  bool is_small(const PointBatch& batch) const;
+  gpu::Urgency urgency_of(const PointBatch& batch) const;
   absl::Status evaluate_large(const PointBatch& batch);
   void dispatch();
   Batches run_next(std::unique_lock<std::mutex>& lock);
@@ -95,6 +98,7 @@ class EvaluationQueue {
                    const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn, RequestTimes& times);
 
   gpu::Turns& turns_;
+  const gpu::DeviceProfile& profile_;
   const Run run_;
   const QueueOptions options_;
   const Clock now_;

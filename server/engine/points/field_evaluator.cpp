@@ -21,18 +21,8 @@ using blobtree::Brick;
 // shaders/points.comp, and in shaders/tape_points.comp.
 using PointJob = std::array<std::uint32_t, 4>;
 constexpr std::uint32_t kPointsPerGroup = 64;
-
-// Instructions times points of one submission: what a cancelled request still waits for, and others with it. About
-// 0.07 s of gradient blends on two cores.
-constexpr std::uint64_t kSubmissionWork = 1u << 21;
-
-// Of a written kernel: points of a submission times WrittenKernels::work_of(), some 4 ms on two cores, where one after
-// another takes 0.3 ms more than both at once.
-constexpr std::size_t kWrittenWork = 1u << 22;
-
-// Of a batch that goes through an index: points of a piece at least, and a brick. What a piece reads and writes at
-// random stays in the processor's caches, and the next one is sorted while the device is at it.
-constexpr std::size_t kIndexedPoints = 1u << 17, kIndexedPointsPerBrick = 32;
+// Points of one dispatch that takes them in their order.
+constexpr std::size_t kMostPoints = std::size_t{gpu::kMaxGroups} * kPointsPerGroup;
 
 // Jobs of one dispatch.
 struct JobRun {
@@ -41,22 +31,23 @@ struct JobRun {
   bool waits;  // for the work so far
 };
 
-// Deals each dispatch's jobs out. `windows`: of each job's tape. After every kSubmissionWork the work so far is waited
-// for.
+// Deals each dispatch's jobs out. `windows`: of each job's tape. After every DeviceProfile::submission_work the work
+// so far is waited for.
 template <class Job, class Work>
 std::vector<JobRun> runs_of(std::vector<Job>& jobs, std::span<const std::uint32_t> windows, const gpu::Device& device,
                             const Work& work_of) {
+  const std::uint64_t most_work = device.profile().submission_work;
   std::vector<JobRun> runs;
   std::uint64_t work = 0;
   for (std::size_t first = 0, end = 0; first < windows.size(); first = end) {
-    const bool waits = work >= kSubmissionWork;
+    const bool waits = work >= most_work;
     if (waits) work = 0;
     while (end < windows.size() && windows[end] == windows[first] && end - first < gpu::kMaxGroups &&
-           (end == first || work < kSubmissionWork)) {
+           (end == first || work < most_work)) {
       work += work_of(jobs[end++]);
     }
     runs.push_back({first, static_cast<std::uint32_t>(end - first), windows[first], waits});
-    deal(jobs, first, end, device.description().dispatch_runs);
+    deal(jobs, first, end, device.profile().dispatch_runs);
   }
   return runs;
 }
@@ -70,11 +61,6 @@ absl::Status record_runs(Session& session, std::span<const JobRun> runs, const F
     ISOFIELD_RETURN_IF_ERROR(dispatch(run));
   }
   return absl::OkStatus();
-}
-
-// The whole tape's at all points, or pruned ones' at sorted points.
-bool is_sorted(const ResidentScene& scene) {
-  return scene.tape().code.size() > blobtree::kUnsortedInstructions;
 }
 
 const shaders::Spirv& points_shader(Quantity quantity, bool is_sorted) {
@@ -92,6 +78,10 @@ struct GridConstants {
 };
 
 }  // namespace
+
+bool FieldEvaluator::is_sorted(const ResidentScene& scene) const {
+  return scene.tape().code.size() > profile().unsorted_instructions;
+}
 
 absl::Status FieldEvaluator::prepare(const ResidentScene& scene, Quantity quantity) {
   return kernels_
@@ -128,7 +118,8 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
                                               std::span<const float> xyz, Quantity quantity, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3, bricks = index.tapes().size();
-  const std::size_t most = std::max(kIndexedPoints, kIndexedPointsPerBrick * bricks);
+  const std::size_t most =
+      std::max<std::size_t>(profile().indexed_points, profile().indexed_points_per_brick * bricks);
   const std::uint32_t points_per_job = this->points_per_job();
   std::optional<Piece> running;
   for (std::size_t first = 0; first < count; first += most) {
@@ -146,7 +137,7 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
       work += std::uint64_t{(points + points_per_job - 1) / points_per_job * points_per_job} * tape.count;
     }
     // What is too much for one submission is submitted while it is recorded, and takes the turn that `running` holds.
-    if (work >= kSubmissionWork) ISOFIELD_RETURN_IF_ERROR(finish(running));
+    if (work >= profile().submission_work) ISOFIELD_RETURN_IF_ERROR(finish(running));
     ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
     piece.sorted = std::move(sorted.points);
     ISOFIELD_RETURN_IF_ERROR(record(piece, scene, index.windows(), groups, quantity,
@@ -231,6 +222,7 @@ absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const
                                                std::span<float> out, const Cancelled& cancelled, Submission submission,
                                                const Dispatch& dispatch) {
   const std::size_t count = xyz.size() / 3;
+  most = std::min(most, kMostPoints);
   std::optional<Piece> running;
   for (std::size_t first = 0; first < count; first += most) {
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
@@ -253,7 +245,8 @@ absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const
 absl::Status FieldEvaluator::evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene,
                                               std::span<const float> xyz, Quantity quantity, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
-  const std::size_t most = std::max<std::size_t>(kWrittenWork / WrittenKernels::work_of(scene.tape()), kPointsPerGroup);
+  const std::size_t most = std::max<std::size_t>(
+      profile().written_work / WrittenKernels::work_of(scene.tape()), kPointsPerGroup);
   return evaluate_in_order(
       most, xyz, quantity, out, cancelled, std::move(submission),
       [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last, std::uint32_t groups) {
@@ -273,7 +266,7 @@ absl::Status FieldEvaluator::evaluate_unsorted(const ResidentScene& scene, std::
       const gpu::SharedPipeline kernel,
       kernels_.get(points_shader(quantity, false), tapes.kind(KernelKind::of(scene.tape()), window)));
   bool is_uploaded = false;
-  return evaluate_in_order(kSubmissionWork / length, xyz, quantity, out, cancelled, std::move(submission),
+  return evaluate_in_order(profile().submission_work / length, xyz, quantity, out, cancelled, std::move(submission),
                            [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last,
                                std::uint32_t groups) -> absl::Status {
                              if (!std::exchange(is_uploaded, true)) ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));

@@ -32,6 +32,8 @@ class FieldEvaluator {
   FieldEvaluator(gpu::Device& device, KernelCache& kernels, base::Workers& workers, WrittenKernels* written = nullptr)
       : device_(device), kernels_(kernels), workers_(workers), written_(written) {}
 
+  const gpu::DeviceProfile& profile() const { return device_.profile(); }
+
   // Asked between submissions; true ends the work with CANCELLED.
   using Cancelled = std::function<bool()>;
 
@@ -54,6 +56,9 @@ class FieldEvaluator {
                                Quantity quantity, std::span<float> out, const Cancelled& cancelled = {});
 
  private:
+  // The whole tape's at all points, or pruned ones' at sorted points.
+  bool is_sorted(const ResidentScene& scene) const;
+
   absl::Status evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene,
                                 std::span<const float> xyz, Quantity quantity, std::span<float> out,
                                 const Cancelled& cancelled, Submission submission);
@@ -85,7 +90,7 @@ class FieldEvaluator {
   // Submits when `running`, if any, is done, and takes its place.
   static absl::Status submit_after(std::optional<Piece>& running, Piece next);
   static absl::Status finish(std::optional<Piece>& running);
-  std::uint32_t points_per_job() const { return device_.description().subgroup_size; }  // of shaders/sorted_points.comp
+  std::uint32_t points_per_job() const { return static_cast<std::uint32_t>(profile().points_per_job); }
   absl::Status record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes, std::span<const Group> groups,
                       Quantity quantity, std::span<float> out, const Cancelled& cancelled);
 

@@ -32,8 +32,9 @@ bool all_light(const blobtree::Tape& tape) {
   return std::all_of(tape.code.begin(), tape.code.end(), [](const auto& i) { return is_light(i.op()); });
 }
 
-std::size_t most_instructions(const blobtree::Tape& tape) {
-  return all_light(tape) ? WrittenKernels::kMostInstructions : WrittenKernels::kMostHeavyInstructions;
+// For longer tapes, sorting the points and pruning the tape gain more.
+std::size_t most_instructions(const blobtree::Tape& tape, const gpu::DeviceProfile& profile) {
+  return all_light(tape) ? profile.written_instructions : profile.written_heavy_instructions;
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ WrittenKernels::Key WrittenKernels::key_of(const blobtree::Tape& tape, bool with
 
 gpu::SharedPipeline WrittenKernels::find(const ResidentScene& scene, bool with_gradient, std::uint64_t points) {
   const blobtree::Tape& tape = scene.tape();
-  if (!options_.is_on || tape.code.size() > most_instructions(tape) || !is_writable(tape)) return nullptr;
+  if (!options_.is_on || tape.code.size() > most_instructions(tape, device_.profile()) || !is_writable(tape)) return nullptr;
   Key key = key_of(tape, with_gradient);
   const std::lock_guard lock(mutex_);
   if (entries_.size() >= kMostStructures && !entries_.contains(key)) forget_cold();

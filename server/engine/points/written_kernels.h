@@ -38,11 +38,6 @@ class WrittenKernels {
   // Waits until the kernel that is being compiled is finished.
   ~WrittenKernels();
 
-  // The most instructions of a tape that gets a kernel: of one with sums and other cheap operators, and of one with
-  // operators that take longer than a leaf. For longer tapes, sorting the points and pruning the tape gain more, as
-  // measured on lavapipe.
-  static constexpr std::size_t kMostInstructions = 48, kMostHeavyInstructions = 12;
-
   // The work of a point in the kernel of such a tape, in instructions of cheap operators such as sums.
   static std::size_t work_of(const blobtree::Tape& tape);
 

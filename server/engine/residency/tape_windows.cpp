@@ -17,10 +17,8 @@ static_assert(blobtree::kWindowAlignment * sizeof(blobtree::Float4) == gpu::kUni
 }  // namespace
 
 KernelKind TapeWindows::windowed(const gpu::Device& device, const KernelKind& kind) {
-  const gpu::DeviceDescription& d = device.description();
-  const bool shares_loads = d.type == "cpu" && d.subgroup_size == 8;
   KernelKind in_windows = kind;
-  in_windows.uniform_set = kUniformAll | (shares_loads ? kSharedLoads : 0u);
+  in_windows.uniform_set = kUniformAll | (device.profile().shares_loads ? kSharedLoads : 0u);
   return in_windows;
 }
 

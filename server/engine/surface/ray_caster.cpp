@@ -15,12 +15,6 @@ using blobtree::dvec3;
 using blobtree::Ray;
 using blobtree::RaySpan;
 
-// Rays that are under way at once, and bricks that they are walked through together in a round: what a round holds in
-// memory, and what is evaluated in vain for rays that hit early in it.
-constexpr std::size_t kRays = 1u << 15;
-constexpr std::size_t kBricksPerRound = 1u << 16;
-constexpr std::size_t kMostBricksPerRay = 64;
-
 dvec3 vec3_at(std::span<const float> numbers, std::size_t i) {
   return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
 }
@@ -68,8 +62,9 @@ class Cast {
     hits_.inside.assign(count, 0);
     hits_.cell_size = index_.cell_size;
     if (scene_.tape().support.empty()) return std::move(hits_);
-    for (std::size_t first = 0; first < count; first += kRays) {
-      ISOFIELD_RETURN_IF_ERROR(start(first, std::min(first + kRays, count)));
+    const std::size_t most = fields_.profile().rays;
+    for (std::size_t first = 0; first < count; first += most) {
+      ISOFIELD_RETURN_IF_ERROR(start(first, std::min(first + most, count)));
       while (!walkers_.empty()) ISOFIELD_RETURN_IF_ERROR(advance());
       while (std::any_of(crossings_.begin(), crossings_.end(), [](const Crossing& c) { return !c.root.done(); })) {
         ISOFIELD_RETURN_IF_ERROR(narrow());
@@ -105,7 +100,9 @@ class Cast {
 
   // One round: every ray some bricks further.
   absl::Status advance() {
-    const std::size_t bricks = std::clamp<std::size_t>(kBricksPerRound / walkers_.size(), 1, kMostBricksPerRay);
+    const gpu::DeviceProfile& most = fields_.profile();
+    const std::size_t bricks =
+        std::clamp<std::size_t>(most.round_bricks / walkers_.size(), 1, most.round_bricks_per_ray);
     xyz_.clear();
     samples_.clear();
     std::vector<std::size_t> ends;  // of the walkers' samples
