@@ -6,11 +6,14 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 5) readonly buffer Samples { float samples[]; };  // of the slab that starts at brick `first`
-layout(std430, binding = 6) writeonly buffer Cases { uint cases[]; };      // four cells a word
-layout(std430, binding = 7) writeonly buffer NearBricks { uint near_bricks[]; };  // 1: has samples near iso
+// of the slab that starts at brick `first`
+layout(std430, binding = BINDING_MESH_CLASSIFY_SAMPLES) readonly buffer Samples { float samples[]; };
+layout(std430, binding = BINDING_MESH_CLASSIFY_CASES) writeonly buffer Cases { uint cases[]; };  // four cells a word
+// 1: has samples near iso
+layout(std430, binding = BINDING_MESH_CLASSIFY_NEAR_BRICKS) writeonly buffer NearBricks { uint near_bricks[]; };
 
-layout(std430, binding = 8) readonly buffer Listed { uint listed[]; };  // the bricks of the slab that are asked, or none
+// the bricks of the slab that are asked, or none
+layout(std430, binding = BINDING_MESH_CLASSIFY_LISTED) readonly buffer Listed { uint listed[]; };
 
 void main() {
   uint word = gl_GlobalInvocationID.x;

@@ -6,10 +6,10 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 5) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
-layout(std430, binding = 6) readonly buffer Cases { uint cases[]; };
-layout(std430, binding = 8) writeonly buffer Cells { uint cells_out[]; };
-layout(std430, binding = 9) writeonly buffer Counts { uvec2 counts[]; };  // vertices, quads
+layout(std430, binding = BINDING_MESH_SURFACE_CASES) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
+layout(std430, binding = BINDING_MESH_CONNECT_CASES) readonly buffer Cases { uint cases[]; };
+layout(std430, binding = BINDING_MESH_CONNECT_CELLS) writeonly buffer Cells { uint cells_out[]; };
+layout(std430, binding = BINDING_MESH_CONNECT_COUNTS) writeonly buffer Counts { uvec2 counts[]; };  // vertices, quads
 
 uint inside_corners(CellRef c) {
   return cases[c.brick * (CELLS_PER_BRICK / 4u) + c.cell / 4u] >> (8u * (c.cell % 4u)) & 0xffu;

@@ -8,9 +8,9 @@
 
 layout(local_size_x = INVOCATIONS) in;
 
-layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };
-layout(std430, binding = 9) readonly buffer Vertices { uint vertex_list[]; };
-layout(std430, binding = 11) buffer Positions { float positions[]; };
+layout(std430, binding = BINDING_MESH_JOBS) readonly buffer Jobs { uint jobs[]; };
+layout(std430, binding = BINDING_MESH_VERTICES) readonly buffer Vertices { uint vertex_list[]; };
+layout(std430, binding = BINDING_MESH_POSITIONS) buffer Positions { float positions[]; };
 
 // Each round takes the tangent planes anew, on the way from the vertex to a crossing on every side: what the curvature of
 // a side adds falls with the square of that distance, as does what a steering direction lacks of the gradient with the

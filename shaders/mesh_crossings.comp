@@ -8,11 +8,13 @@
 
 layout(local_size_x = INVOCATIONS) in;
 
-layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };  // brick, place of its samples in the slab
-layout(std430, binding = 6) readonly buffer Samples { float samples[]; };
-layout(std430, binding = 8) readonly buffer Starts { uvec2 starts[]; };
-layout(std430, binding = 9) readonly buffer Quads { uvec2 quad_list[]; };
-layout(std430, binding = 10) writeonly buffer Crossings { float crossings[]; };  // mesh_crossings.glsl
+// brick, place of its samples in the slab
+layout(std430, binding = BINDING_MESH_JOBS) readonly buffer Jobs { uint jobs[]; };
+layout(std430, binding = BINDING_MESH_CROSSINGS_SAMPLES) readonly buffer Samples { float samples[]; };
+layout(std430, binding = BINDING_MESH_STARTS) readonly buffer Starts { uvec2 starts[]; };
+layout(std430, binding = BINDING_MESH_QUADS) readonly buffer Quads { uvec2 quad_list[]; };
+// mesh_crossings.glsl
+layout(std430, binding = BINDING_MESH_CROSSINGS) writeonly buffer Crossings { float crossings[]; };
 
 // The linearised distance, in cells, from where a step of Newton's method is the last: it squares it.
 const float NEAR = 0.02;

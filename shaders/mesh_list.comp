@@ -6,11 +6,14 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 5) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
-layout(std430, binding = 6) readonly buffer Cells { uint cells_in[]; };
-layout(std430, binding = 7) readonly buffer Starts { uvec2 starts[]; };         // first vertex, first quad of a brick
-layout(std430, binding = 8) writeonly buffer Vertices { uint vertex_list[]; };  // mesh_constants.glsl
-layout(std430, binding = 9) writeonly buffer Quads { uvec2 quad_list[]; };      // brick, cell | axis << 8 | inside << 10
+layout(std430, binding = BINDING_MESH_SURFACE_CASES) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
+layout(std430, binding = BINDING_MESH_CELLS) readonly buffer Cells { uint cells_in[]; };
+// first vertex, first quad of a brick
+layout(std430, binding = BINDING_MESH_LIST_STARTS) readonly buffer Starts { uvec2 starts[]; };
+// mesh_constants.glsl
+layout(std430, binding = BINDING_MESH_LIST_VERTICES) writeonly buffer Vertices { uint vertex_list[]; };
+// brick, cell | axis << 8 | inside << 10
+layout(std430, binding = BINDING_MESH_QUADS) writeonly buffer Quads { uvec2 quad_list[]; };
 
 void main() {
   uint b = gl_GlobalInvocationID.x;

@@ -1,4 +1,4 @@
-// Mesher, pass 3b: which parts of bricks hold samples that may be on the surface, an invocation a part.
+// Mesher, pass 3b: which octets hold samples that may be on the surface, an invocation an octet.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -6,18 +6,20 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 5) readonly buffer NearBricks { uint near_bricks[]; };  // their places in the slab
-layout(std430, binding = 6) readonly buffer Samples { float samples[]; };
-layout(std430, binding = 7) writeonly buffer NearParts { uint near_parts[]; };  // SAMPLE_PARTS a brick: 0 or 1
+// their places in the slab
+layout(std430, binding = BINDING_MESH_NEAR_LISTED) readonly buffer Listed { uint listed[]; };
+layout(std430, binding = BINDING_MESH_NEAR_SAMPLES) readonly buffer Samples { float samples[]; };
+// OCTETS a brick: 0 or 1
+layout(std430, binding = BINDING_MESH_NEAR_NEAR_OCTETS) writeonly buffer NearOctets { uint near_octets[]; };
 
 void main() {
   uint n = gl_GlobalInvocationID.x;
-  if (n >= count * SAMPLE_PARTS) return;
+  if (n >= count * OCTETS) return;
   float nearest = 1e30;
-  for (uint i = 0u; i < PART_CORNERS; ++i) {
-    uvec3 corner = corner_of_part(n % SAMPLE_PARTS, i);
-    float f = samples[near_bricks[n / SAMPLE_PARTS] * CORNERS_PER_BRICK + sample_place(corner)];
+  for (uint i = 0u; i < OCTET_CORNERS; ++i) {
+    uvec3 corner = corner_of_octet(n % OCTETS, i);
+    float f = samples[listed[n / OCTETS] * CORNERS_PER_BRICK + sample_place(corner)];
     nearest = min(nearest, abs(f - iso));
   }
-  near_parts[n] = nearest <= near ? 1u : 0u;
+  near_octets[n] = nearest <= near ? 1u : 0u;
 }

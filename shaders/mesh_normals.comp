@@ -9,10 +9,10 @@
 
 layout(local_size_x = INVOCATIONS) in;
 
-layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };
-layout(std430, binding = 6) readonly buffer Starts { uvec2 starts[]; };
-layout(std430, binding = 7) readonly buffer Positions { float positions[]; };
-layout(std430, binding = 8) writeonly buffer Normals { float normals[]; };
+layout(std430, binding = BINDING_MESH_JOBS) readonly buffer Jobs { uint jobs[]; };
+layout(std430, binding = BINDING_MESH_NORMALS_STARTS) readonly buffer Starts { uvec2 starts[]; };
+layout(std430, binding = BINDING_MESH_NORMALS_POSITIONS) readonly buffer Positions { float positions[]; };
+layout(std430, binding = BINDING_MESH_NORMALS_NORMALS) writeonly buffer Normals { float normals[]; };
 
 void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];

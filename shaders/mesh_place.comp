@@ -9,12 +9,14 @@
 
 layout(local_size_x = INVOCATIONS) in;
 
-layout(std430, binding = 5) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
-layout(std430, binding = 9) buffer Vertices { uint vertex_list[]; };  // mesh_constants.glsl
-layout(std430, binding = 11) writeonly buffer Positions { float positions[]; };
-layout(std430, binding = 12) buffer Kinds { uint kinds[]; };
-layout(std430, binding = 13) readonly buffer Samples { float samples[]; };  // of the slab that starts at brick `first`
-layout(std430, binding = 14) readonly buffer Placed { uint placed[]; };      // bricks, one a workgroup
+layout(std430, binding = BINDING_MESH_SURFACE_CASES) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
+layout(std430, binding = BINDING_MESH_VERTICES) buffer Vertices { uint vertex_list[]; };  // mesh_constants.glsl
+layout(std430, binding = BINDING_MESH_POSITIONS) writeonly buffer Positions { float positions[]; };
+layout(std430, binding = BINDING_MESH_PLACE_KINDS) buffer Kinds { uint kinds[]; };
+// of the slab that starts at brick `first`
+layout(std430, binding = BINDING_MESH_PLACE_SAMPLES) readonly buffer Samples { float samples[]; };
+// bricks, one a workgroup
+layout(std430, binding = BINDING_MESH_PLACE_PLACED) readonly buffer Placed { uint placed[]; };
 
 // A patch is taken to hold a crease where the mean of the squared sines between its normals and their mean is more:
 // creases that turn by about 25 degrees, and surfaces with a radius of up to 2.5 cells.

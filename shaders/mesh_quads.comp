@@ -13,10 +13,10 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 11) readonly buffer Positions { float positions[]; };
-layout(std430, binding = 12) writeonly buffer Cuts { uint cuts[]; };
-layout(std430, binding = 13) readonly buffer Kinds { uint kinds[]; };
-layout(std430, binding = 14) writeonly buffer Corners { uvec4 corners[]; };  // Quad::corners
+layout(std430, binding = BINDING_MESH_POSITIONS) readonly buffer Positions { float positions[]; };
+layout(std430, binding = BINDING_MESH_QUADS_CUTS) writeonly buffer Cuts { uint cuts[]; };
+layout(std430, binding = BINDING_MESH_QUADS_KINDS) readonly buffer Kinds { uint kinds[]; };
+layout(std430, binding = BINDING_MESH_QUADS_CORNERS) writeonly buffer Corners { uvec4 corners[]; };  // Quad::corners
 
 // How far within the envelope, as a part of it.
 const float SLACK = 1e-3;

@@ -1,5 +1,5 @@
-// Mesher, pass 3c: puts the samples that are on the surface on the side of the point beside them, eight invocations a
-// part of a brick.
+// Mesher, pass 3c: puts the samples that are on the surface on the side of the point beside them, eight invocations an
+// octet.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -7,17 +7,20 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 5) readonly buffer Parts { uint parts[]; };  // a place in near_bricks, the part in bits 0-3
-layout(std430, binding = 6) buffer Samples { float samples[]; };
-layout(std430, binding = 7) readonly buffer Beside { float samples_beside[]; };  // by places in near_bricks
-layout(std430, binding = 8) readonly buffer NearBricks { uint near_bricks[]; };          // their places in the slab
+// a place in `listed` times OCTETS + octet
+layout(std430, binding = BINDING_MESH_SETTLE_OCTETS) readonly buffer Octets { uint octets[]; };
+layout(std430, binding = BINDING_MESH_SETTLE_SAMPLES) buffer Samples { float samples[]; };
+// by places in `listed`
+layout(std430, binding = BINDING_MESH_SETTLE_BESIDE) readonly buffer Beside { float samples_beside[]; };
+// bricks' places in the slab
+layout(std430, binding = BINDING_MESH_SETTLE_LISTED) readonly buffer Listed { uint listed[]; };
 
 void main() {
-  uint part = parts[min(gl_GlobalInvocationID.x / PART_CORNERS, count - 1u)];
-  uvec3 corner = corner_of_part(part & 15u, gl_GlobalInvocationID.x % PART_CORNERS);
-  uint i = near_bricks[part >> 4u] * CORNERS_PER_BRICK + sample_place(corner);
+  uint at = octets[min(gl_GlobalInvocationID.x / OCTET_CORNERS, count - 1u)];
+  uvec3 corner = corner_of_octet(at & (OCTETS - 1u), gl_GlobalInvocationID.x % OCTET_CORNERS);
+  uint i = listed[at >> OCTET_BITS] * CORNERS_PER_BRICK + sample_place(corner);
   float excess = samples[i] - iso;
-  float excess_beside = samples_beside[(part >> 4u) * CORNERS_PER_BRICK + sample_place(corner)] - iso;
+  float excess_beside = samples_beside[(at >> OCTET_BITS) * CORNERS_PER_BRICK + sample_place(corner)] - iso;
   // How much the field changes from one point to the other tells its slope, so that in all bricks that know the sample
   // the same is decided.
   bool is_near = abs(excess) <= min(near, value_room + slope_room * abs(excess_beside - excess));

@@ -6,11 +6,11 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 12) readonly buffer Cuts { uint cuts[]; };  // cut | fans before << 2
-layout(std430, binding = 13) writeonly buffer Triangles { uint triangles[]; };
-layout(std430, binding = 15) readonly buffer FanStarts { uvec2 fan_starts[]; };
-layout(std430, binding = 14) writeonly buffer Centres { float centres[]; };  // of the fans
-layout(std430, binding = 11) readonly buffer Corners { uvec4 corners[]; };    // Quad::corners
+layout(std430, binding = BINDING_MESH_TRIANGLES_CUTS) readonly buffer Cuts { uint cuts[]; };  // cut | fans before << 2
+layout(std430, binding = BINDING_MESH_TRIANGLES_TRIANGLES) writeonly buffer Triangles { uint triangles[]; };
+layout(std430, binding = BINDING_MESH_TRIANGLES_FAN_STARTS) readonly buffer FanStarts { uvec2 fan_starts[]; };
+layout(std430, binding = BINDING_MESH_TRIANGLES_CENTRES) writeonly buffer Centres { float centres[]; };  // of the fans
+layout(std430, binding = BINDING_MESH_TRIANGLES_CORNERS) readonly buffer Corners { uvec4 corners[]; };  // Quad::corners
 
 void write_triangle(uint t, uint a, uint b, uint c) {
   triangles[3u * t] = a;

@@ -8,12 +8,12 @@
 
 layout(local_size_x = INVOCATIONS) in;
 
-layout(std430, binding = 5) readonly buffer Jobs { uint jobs[]; };
-layout(std430, binding = 6) readonly buffer Cells { uint cells_in[]; };
-layout(std430, binding = 7) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
-layout(std430, binding = 8) readonly buffer Starts { uvec2 starts[]; };
-layout(std430, binding = 9) readonly buffer Vertices { uint vertex_list[]; };
-layout(std430, binding = 11) buffer Positions { float positions[]; };
+layout(std430, binding = BINDING_MESH_JOBS) readonly buffer Jobs { uint jobs[]; };
+layout(std430, binding = BINDING_MESH_CELLS) readonly buffer Cells { uint cells_in[]; };
+layout(std430, binding = BINDING_MESH_VERTICES_SURFACE_CASES) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
+layout(std430, binding = BINDING_MESH_STARTS) readonly buffer Starts { uvec2 starts[]; };
+layout(std430, binding = BINDING_MESH_VERTICES) readonly buffer Vertices { uint vertex_list[]; };
+layout(std430, binding = BINDING_MESH_POSITIONS) buffer Positions { float positions[]; };
 
 const int NEWTON_STEPS = 5;
 const int BISECTION_STEPS = 14;

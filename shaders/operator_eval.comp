@@ -9,8 +9,8 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 4) readonly buffer Arguments { float arguments[]; };
-layout(std430, binding = 5) writeonly buffer Results { float results[]; };
+layout(std430, binding = BINDING_OPERATOR_EVAL_ARGUMENTS) readonly buffer Arguments { float arguments[]; };
+layout(std430, binding = BINDING_OPERATOR_EVAL_RESULTS) writeonly buffer Results { float results[]; };
 
 const uint STEERING_NONE = 0u, STEERING_THETA = 1u, STEERING_ALPHA = 2u;
 

@@ -9,8 +9,9 @@
 
 layout(local_size_x = 32) in;
 
-layout(std430, binding = 4) readonly buffer Angles { vec2 angles[]; };  // t, dt/dtheta of every layer
-layout(std430, binding = 5) writeonly buffer Nodes { vec4 nodes[]; };
+// t, dt/dtheta of every layer
+layout(std430, binding = BINDING_OPERATOR_VOLUME_ANGLES) readonly buffer Angles { vec2 angles[]; };
+layout(std430, binding = BINDING_OPERATOR_VOLUME_NODES) writeonly buffer Nodes { vec4 nodes[]; };
 
 layout(push_constant) uniform Constants {
   uint size;  // a multiple of 4

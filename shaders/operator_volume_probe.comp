@@ -7,9 +7,9 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 4) readonly buffer Arguments { vec4 arguments[]; };  // f1, f2, t
+layout(std430, binding = BINDING_VOLUME_PROBE_ARGUMENTS) readonly buffer Arguments { vec4 arguments[]; };  // f1, f2, t
 // A row of 3: g, g1, g2, gt; g11, g12, g22; g1t, g2t. FIRST: of the first alone.
-layout(std430, binding = 5) writeonly buffer Results { vec4 results[]; };
+layout(std430, binding = BINDING_VOLUME_PROBE_RESULTS) writeonly buffer Results { vec4 results[]; };
 
 layout(push_constant) uniform Constants {
   uint count;

@@ -8,7 +8,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 6) readonly buffer Points { float points[]; };
+layout(std430, binding = BINDING_POINTS_POINTS) readonly buffer Points { float points[]; };
 
 layout(push_constant) uniform Constants {
   uint last;

@@ -1,10 +1,15 @@
 // The volume of an operator that is given by samples alone: partials by central differences, one-sided at the ends.
 #version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "bindings.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 4) readonly buffer Samples { float samples[]; };  // size^3, f1 fastest
-layout(std430, binding = 5) writeonly buffer Nodes { vec4 nodes[]; };      // as in operator_volume.comp
+// size^3, f1 fastest
+layout(std430, binding = BINDING_SAMPLED_VOLUME_SAMPLES) readonly buffer Samples { float samples[]; };
+// as in operator_volume.comp
+layout(std430, binding = BINDING_SAMPLED_VOLUME_NODES) writeonly buffer Nodes { vec4 nodes[]; };
 
 layout(push_constant) uniform Constants {
   uint size;

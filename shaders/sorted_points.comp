@@ -9,9 +9,9 @@
 layout(local_size_x = 64) in;
 
 // tape begin, tape count (0: the field is 0), first point, last (engine/points/field_evaluator.cpp)
-layout(std430, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
+layout(std430, binding = BINDING_SORTED_POINTS_JOBS) readonly buffer Jobs { uvec4 jobs[]; };
 // With their places in the batch as bits: read together, where points in another order are far from each other.
-layout(std430, binding = 5) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = BINDING_SORTED_POINTS_POINTS) readonly buffer Points { vec4 points[]; };
 
 layout(push_constant) uniform Constants {
   uint first_job;

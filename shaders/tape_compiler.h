@@ -10,7 +10,7 @@
 
 namespace isofield::shaders {
 
-// `definitions`: macros, WITH_GRADIENT and the constants of lib/opcodes.glsl among them. `tape`: GLSL that defines
+// `definitions`: macros, WITH_GRADIENT and the constants of codes.glsl among them. `tape`: GLSL that defines
 // Field evaluate_tape(vec3 p) by what lib/ has. INTERNAL: it does not compile; the message is the compiler's.
 // Thread-safe.
 absl::StatusOr<std::vector<std::uint32_t>> compile_tape(const std::string& definitions, std::string_view tape);

@@ -28,18 +28,18 @@ absl::StatusOr<Buffer> Session::scratch(std::size_t bytes) {
   return Buffer::create(*device_, bytes, Buffer::Use::kDevice);
 }
 
-absl::StatusOr<Buffer> Session::input(std::span<const float> data) {
+absl::StatusOr<const Buffer*> Session::input(std::span<const float> data) {
   // Kernels that are given it read it alone.
   float* const bytes = const_cast<float*>(data.data());
   if (auto borrowed = borrow(*device_, std::as_writable_bytes(std::span(bytes, data.size())))) {
-    return *std::move(borrowed);
+    return &keep(*std::move(borrowed));
   }
-  return upload(data);
+  return lend(data);
 }
 
-absl::StatusOr<Buffer> Session::output(std::span<float> out) {
-  if (auto borrowed = borrow(*device_, std::as_writable_bytes(out))) return *std::move(borrowed);
-  return scratch(out.size_bytes());
+absl::StatusOr<const Buffer*> Session::output(std::span<float> out) {
+  if (auto borrowed = borrow(*device_, std::as_writable_bytes(out))) return &keep(*std::move(borrowed));
+  return lend_scratch(out.size_bytes());
 }
 
 absl::StatusOr<Buffer> Session::upload_bytes(std::span<const std::byte> data) {
@@ -54,7 +54,7 @@ absl::StatusOr<Buffer> Session::upload_bytes(std::span<const std::byte> data) {
   std::memcpy(staging->data(), data.data(), data.size());
   commands_.copy(*staging, 0, *buffer, 0, data.size());
   commands_.barrier();
-  staging_.push_back(*std::move(staging));
+  keep(*std::move(staging));
   return buffer;
 }
 
@@ -69,7 +69,7 @@ absl::Status Session::download_bytes(const Buffer& buffer, std::span<std::byte> 
   commands_.barrier();
   commands_.copy(buffer, 0, *staging, 0, out.size());
   downloads_.push_back({staging->data(), out});
-  staging_.push_back(*std::move(staging));
+  keep(*std::move(staging));
   return absl::OkStatus();
 }
 

@@ -33,13 +33,21 @@ class Session {
   absl::StatusOr<gpu::Buffer> upload(std::span<T> data) {
     return upload_bytes(std::as_bytes(data));
   }
-  // The same for data that stays while the buffer is used: a large array is not copied where the device can read the
-  // host's.
-  absl::StatusOr<gpu::Buffer> input(std::span<const float> data);
+  // The same for data that stays until the session is over, which keeps the buffer: a large array is not copied where
+  // the device can read the host's.
+  absl::StatusOr<const gpu::Buffer*> input(std::span<const float> data);
   // A buffer of undefined content to download() to `out`: where the device can write there, `out` itself.
-  absl::StatusOr<gpu::Buffer> output(std::span<float> out);
+  absl::StatusOr<const gpu::Buffer*> output(std::span<float> out);
   // A buffer of undefined content.
   absl::StatusOr<gpu::Buffer> scratch(std::size_t bytes);
+  // Keeps a buffer until the session is over, for kernels that it runs.
+  const gpu::Buffer& keep(gpu::Buffer buffer) { return kept_.emplace_back(std::move(buffer)); }
+  // As upload() and scratch(), of buffers that the session keeps.
+  template <class T>
+  absl::StatusOr<const gpu::Buffer*> lend(std::span<T> data) {
+    return lend(upload(data));
+  }
+  absl::StatusOr<const gpu::Buffer*> lend_scratch(std::size_t bytes) { return lend(scratch(bytes)); }
   // Fills `out` from the start of the buffer when run() returns; record it after the dispatches that write the buffer.
   // No work where output() gave it for `out`.
   template <class T>
@@ -62,6 +70,10 @@ class Session {
   };
   Session(gpu::Device& device, const gpu::Urgency& urgency, gpu::Turns::Turn turn, gpu::Commands commands)
       : device_(&device), urgency_(urgency), turn_(std::move(turn)), commands_(std::move(commands)) {}
+  absl::StatusOr<const gpu::Buffer*> lend(absl::StatusOr<gpu::Buffer> buffer) {
+    if (!buffer.ok()) return buffer.status();
+    return &keep(*std::move(buffer));
+  }
   absl::StatusOr<gpu::Buffer> upload_bytes(std::span<const std::byte> data);
   absl::Status download_bytes(const gpu::Buffer& buffer, std::span<std::byte> out);
 
@@ -69,7 +81,7 @@ class Session {
   gpu::Urgency urgency_;
   gpu::Turns::Turn turn_;
   std::optional<std::chrono::steady_clock::time_point> submitted_;
-  std::deque<gpu::Buffer> staging_;  // outlives the commands
+  std::deque<gpu::Buffer> kept_;  // outlives the commands
   gpu::Commands commands_;
   std::vector<Download> downloads_;
 };

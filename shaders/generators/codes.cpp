@@ -1,20 +1,16 @@
-// Writes the texts of code_texts.h at build time (shaders/CMakeLists.txt): codes FOLDER.
+// Writes a text of code_texts.h to the standard output at build time (shaders/CMakeLists.txt): codes, leaves or operators.
 #include <cstdio>
-#include <fstream>
+#include <string_view>
 
 #include "generators/code_texts.h"
 
 int main(int argc, char** argv) {
   using namespace isofield;
-  if (argc != 2) return std::fputs("usage: codes FOLDER\n", stderr), 2;
-  const std::string folder = argv[1];
-  const auto write = [&](const char* name, const std::string& text) {
-    std::ofstream file(folder + "/" + name, std::ios::binary);
-    file << text;
-    return static_cast<bool>(file.flush());
-  };
-  const bool is_written = write("codes.glsl", shaders::codes_text(blobtree::kOperands, operators::kOpcodes)) &&
-                          write("leaves.glsl", shaders::leaves_text(blobtree::kOperands)) &&
-                          write("operators.glsl", shaders::operators_text(operators::kOpcodes));
-  return is_written ? 0 : 1;
+  const std::string_view wanted = argc == 2 ? argv[1] : "";
+  std::string text;
+  if (wanted == "codes") text = shaders::codes_text(blobtree::kOperands, operators::kOpcodes);
+  if (wanted == "leaves") text = shaders::leaves_text(blobtree::kOperands);
+  if (wanted == "operators") text = shaders::operators_text(operators::kOpcodes);
+  if (text.empty()) return std::fputs("usage: isofield_write_codes codes|leaves|operators\n", stderr), 2;
+  return std::fputs(text.c_str(), stdout) < 0 ? 1 : 0;
 }

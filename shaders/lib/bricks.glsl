@@ -2,7 +2,9 @@
 #ifndef BRICKS_GLSL
 #define BRICKS_GLSL
 
-const uint BRICK_CELLS = 4u;
+#include "bindings.glsl"
+#include "sizes.glsl"
+
 const uint BRICK_CORNERS = BRICK_CELLS + 1u;
 const uint CELLS_PER_BRICK = BRICK_CELLS * BRICK_CELLS * BRICK_CELLS;
 const uint CORNERS_PER_BRICK = BRICK_CORNERS * BRICK_CORNERS * BRICK_CORNERS;
@@ -12,10 +14,10 @@ struct Brick {
   uint tape_begin, tape_count;
 };
 
-layout(std430, binding = 4) readonly buffer Bricks { uint bricks[]; };
+layout(std430, binding = BINDING_LATTICE_BRICKS) readonly buffer Bricks { uint bricks[]; };
 
 Brick brick(uint b) {
-  uint i = 5u * b;
+  uint i = BRICK_WORDS * b;
   return Brick(uvec3(bricks[i], bricks[i + 1u], bricks[i + 2u]), bricks[i + 3u], bricks[i + 4u]);
 }
 

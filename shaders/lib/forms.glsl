@@ -4,7 +4,7 @@
 
 #include "operators/conversions.glsl"
 
-// What a form makes of its operands before the union of them, and of that after: modes of opcodes.glsl. Beside a positive
+// What a form makes of its operands before the union of them, and of that after: modes of codes.glsl. Beside a positive
 // complement, one that is negative is as good as 0.
 Field complement(Field a, uint mode) {
   bool is_signed = (mode & MODE_SIGNED) != 0u;

@@ -1,4 +1,4 @@
-// What every pass of the mesher is told, and the numbering that its passes share.
+// The numbering that the mesher's passes share, and what follows from what they are told.
 //
 // A cell's corners are numbered x + 2 y + 4 z, its edges 4 axis + u + 2 v with (u, v) the offsets along the next two
 // axes in cyclic order. Its surface falls into patches, one vertex each (dual marching cubes): server/engine/mesh/surface_cases.h.
@@ -6,21 +6,7 @@
 #define MESH_CONSTANTS_GLSL
 
 #include "bricks.glsl"
-
-layout(push_constant) uniform Constants {
-  vec4 origin;    // of the lattice; w: cell size
-  uvec4 cells;    // cells of the lattice along x, y, z
-  uint first;     // of the bricks, or jobs, of this dispatch
-  uint count;
-  float iso;       // of a field that is greater inside: of a signed one, its negative's
-  uint flags;
-  float tolerance;   // of vertices' distances from the surface, in cells
-  float shift;       // how far beside a lattice point the field decides for it, in model units (below)
-  float near;        // samples this near to iso may be on the surface
-  float value_room;  // of those: how far rounding alone takes values from iso,
-  float slope_room;  // and how far it takes points, as a part of `shift`
-  float just_inside;
-};
+#include "mesh_layout.glsl"  // server/engine/mesh/mesh_layout.h: the push constants, among others
 
 // Samples that rounding might have put on either side of the surface are on the side of a point beside the lattice
 // point, the same way everywhere: so a face that lies in a plane of the lattice is on one side of all of it, and two
@@ -31,15 +17,15 @@ const vec3 BESIDE = vec3(0.346, 0.534, 0.772);
 bool is_on_surface(float f) { return f == iso || f == just_inside; }
 
 // Corners on the lattice's boundary count as outside.
-bool is_capped() { return (flags & 1u) != 0u; }
+bool is_capped() { return (flags & IS_CAPPED) != 0u; }
 // 1, or -1 where the field is signed: what makes it greater inside.
-float inward() { return (flags & 2u) != 0u ? -1.0 : 1.0; }
+float inward() { return (flags & IS_SIGNED) != 0u ? -1.0 : 1.0; }
 // The dispatch is about listed bricks, not about those from `first` on.
-bool is_listed() { return (flags & 4u) != 0u; }
+bool is_listed() { return (flags & IS_LISTED) != 0u; }
 // Whether corner i of the lattice counts as outside because it lies on its boundary.
 bool is_cap(uvec3 i) { return is_capped() && (any(equal(i, uvec3(0u))) || any(greaterThanEqual(i, cells.xyz))); }
 // What a corner on a capped boundary is taken to have.
-float cap_value() { return (flags & 2u) != 0u ? iso - origin.w : 0.0; }
+float cap_value() { return (flags & IS_SIGNED) != 0u ? iso - origin.w : 0.0; }
 
 vec3 corner_position(uvec3 i) { return lattice_point(origin.xyz, vec3(origin.w), i); }
 

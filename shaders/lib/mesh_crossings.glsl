@@ -4,11 +4,11 @@
 
 #include "mesh_neighbours.glsl"
 
-layout(std430, binding = 6) readonly buffer Cells { uint cells_in[]; };
-layout(std430, binding = 8) readonly buffer Starts { uvec2 starts[]; };
+layout(std430, binding = BINDING_MESH_CELLS) readonly buffer Cells { uint cells_in[]; };
+layout(std430, binding = BINDING_MESH_STARTS) readonly buffer Starts { uvec2 starts[]; };
 // The crossings of bricks that know theirs: vectors along the unit outward normal, of length 1 + (place along the edge,
 // within [0, 1]), and longer by 2 where the inner end of the edge is on the surface.
-layout(std430, binding = 10) readonly buffer Crossings { float crossings[]; };
+layout(std430, binding = BINDING_MESH_CROSSINGS) readonly buffer Crossings { float crossings[]; };
 
 struct Crossing {
   vec3 at;  // in cells, from the low corner of the cell that was asked
@@ -39,11 +39,6 @@ const bool MAY_HAVE_CREASES = false;
 #else
 const bool MAY_HAVE_CREASES = true;
 #endif
-
-// What is known of a brick, as bits: server/engine/mesh/mesh_creases.h.
-const uint KNOWS_CROSSINGS = 1u;
-const uint MAY_CREASE = 2u;
-const uint HAS_CREASES = 4u;
 
 // Planes, met as well as can be: the sum of their squared distances, about some point.
 struct Planes {

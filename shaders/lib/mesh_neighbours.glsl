@@ -4,10 +4,8 @@
 
 #include "mesh_constants.glsl"
 
-const uint NO_BRICK = 0xffffffffu;
-
-// Twelve a brick: -x, +x, -y, +y, -z, +z, then (-y, -z), (-z, -x), (-x, -y), and (+y, +z), (+z, +x), (+x, +y).
-layout(std430, binding = 7) readonly buffer Neighbours { uint neighbours[]; };
+// NEIGHBOURS a brick, or NO_BRICK.
+layout(std430, binding = BINDING_MESH_NEIGHBOURS) readonly buffer Neighbours { uint neighbours[]; };
 
 // A cell by brick and number.
 struct CellRef {
@@ -19,16 +17,16 @@ struct CellRef {
 // (both less, or both more) in two.
 CellRef cell_ref(uint b, ivec3 at) {
   const int n = int(BRICK_CELLS);
-  uint slot = 12u;
-  if (at.x < 0) slot = at.y < 0 ? 8u : at.z < 0 ? 7u : 0u;
-  else if (at.y < 0) slot = at.z < 0 ? 6u : 2u;
-  else if (at.z < 0) slot = 4u;
-  else if (at.x >= n) slot = at.y >= n ? 11u : at.z >= n ? 10u : 1u;
-  else if (at.y >= n) slot = at.z >= n ? 9u : 3u;
-  else if (at.z >= n) slot = 5u;
+  uint slot = NEIGHBOURS;
+  if (at.x < 0) slot = at.y < 0 ? BELOW_XY : at.z < 0 ? BELOW_XZ : BELOW_X;
+  else if (at.y < 0) slot = at.z < 0 ? BELOW_YZ : BELOW_Y;
+  else if (at.z < 0) slot = BELOW_Z;
+  else if (at.x >= n) slot = at.y >= n ? ABOVE_XY : at.z >= n ? ABOVE_XZ : ABOVE_X;
+  else if (at.y >= n) slot = at.z >= n ? ABOVE_YZ : ABOVE_Y;
+  else if (at.z >= n) slot = ABOVE_Z;
   uvec3 within = uvec3(at + n) % BRICK_CELLS;
   uint cell = within.x + BRICK_CELLS * (within.y + BRICK_CELLS * within.z);
-  return CellRef(slot == 12u ? b : neighbours[12u * b + slot], cell);
+  return CellRef(slot == NEIGHBOURS ? b : neighbours[NEIGHBOURS * b + slot], cell);
 }
 
 #endif

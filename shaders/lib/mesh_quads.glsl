@@ -4,13 +4,8 @@
 
 #include "mesh_crossings.glsl"
 
-layout(std430, binding = 5) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
-layout(std430, binding = 9) readonly buffer Quads { uvec2 quad_list[]; };
-
-// How a quad becomes triangles.
-const uint CUT_02 = 0u;  // along the diagonal of the vertices 0 and 2
-const uint CUT_13 = 1u;
-const uint CUT_FAN = 2u;  // four triangles around the crossing of its edge, which becomes a vertex
+layout(std430, binding = BINDING_MESH_SURFACE_CASES) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
+layout(std430, binding = BINDING_MESH_QUADS) readonly buffer Quads { uvec2 quad_list[]; };
 
 struct ListedQuad {
   uint brick;

@@ -1,23 +1,20 @@
-// The samples of a brick, in parts of eight corners: server/engine/mesh/mesh_samples.h.
+// The samples of a brick, in octets of corners: server/engine/mesh/mesh_samples.h.
 #ifndef MESH_SAMPLES_GLSL
 #define MESH_SAMPLES_GLSL
 
 #include "mesh_constants.glsl"
 
-const uint PART_CORNERS = 8u;
-const uint SAMPLE_PARTS = 16u;
-
-// Parts 0 to 7: the corners at which the brick begins. 8 to 13: two for each upper face, without its upper edges. 14: the
+// Octets 0 to 7: the corners at which the brick begins. 8 to 13: two for each upper face, without its upper edges. 14: the
 // edges at the upper x and y, and x and z. 15: that at the upper y and z, and the last corner, four times.
-uvec3 corner_of_part(uint part, uint n) {
-  uint m = (part & 1u) * PART_CORNERS + n, u = m % BRICK_CELLS, v = m / BRICK_CELLS;
+uvec3 corner_of_octet(uint octet, uint n) {
+  uint m = (octet & 1u) * OCTET_CORNERS + n, u = m % BRICK_CELLS, v = m / BRICK_CELLS;
   uint k = n % BRICK_CELLS;
   bool is_first = n < BRICK_CELLS;
-  if (part < 8u) return uvec3(u, v % BRICK_CELLS, part / 2u);
-  if (part < 10u) return uvec3(BRICK_CELLS, u, v);
-  if (part < 12u) return uvec3(u, BRICK_CELLS, v);
-  if (part < 14u) return uvec3(u, v, BRICK_CELLS);
-  if (part == 14u) return is_first ? uvec3(BRICK_CELLS, BRICK_CELLS, k) : uvec3(BRICK_CELLS, k, BRICK_CELLS);
+  if (octet < OWN_OCTETS) return uvec3(u, v % BRICK_CELLS, octet / 2u);
+  if (octet < 10u) return uvec3(BRICK_CELLS, u, v);
+  if (octet < 12u) return uvec3(u, BRICK_CELLS, v);
+  if (octet < 14u) return uvec3(u, v, BRICK_CELLS);
+  if (octet == 14u) return is_first ? uvec3(BRICK_CELLS, BRICK_CELLS, k) : uvec3(BRICK_CELLS, k, BRICK_CELLS);
   return is_first ? uvec3(k, BRICK_CELLS, BRICK_CELLS) : uvec3(BRICK_CELLS);
 }
 

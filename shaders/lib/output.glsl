@@ -2,12 +2,13 @@
 #ifndef OUTPUT_GLSL
 #define OUTPUT_GLSL
 
+#include "bindings.glsl"
 #include "field.glsl"
 
 #ifdef WITH_GRADIENT
-layout(std430, binding = 7) writeonly buffer Results { vec4 results[]; };
+layout(std430, binding = BINDING_POINTS_RESULTS) writeonly buffer Results { vec4 results[]; };
 #else
-layout(std430, binding = 7) writeonly buffer Results { float results[]; };
+layout(std430, binding = BINDING_POINTS_RESULTS) writeonly buffer Results { float results[]; };
 #endif
 
 void write_result(uint place, Field a) {

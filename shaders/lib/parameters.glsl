@@ -4,22 +4,26 @@
 
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-#include "codes.glsl"  // written at build time
+#include "bindings.glsl"  // written at build time
+#include "codes.glsl"     // written at build time
+#include "sizes.glsl"     // written at build time
 
-layout(std430, binding = 0) readonly buffer Leaves { vec4 leaves[]; };
-layout(std430, binding = 1) readonly buffer Operations { vec4 operations[]; };
-layout(std430, binding = 2) readonly buffer Tables { vec4 tables[]; };
-layout(std430, binding = 3) readonly buffer Tape { uvec4 tape[]; };
+layout(std430, binding = BINDING_SCENE_LEAVES) readonly buffer Leaves { vec4 leaves[]; };
+layout(std430, binding = BINDING_SCENE_OPERATIONS) readonly buffer Operations { vec4 operations[]; };
+layout(std430, binding = BINDING_SCENE_TABLES) readonly buffer Tables { vec4 tables[]; };
+layout(std430, binding = BINDING_SCENE_TAPE) readonly buffer Tape { uvec4 tape[]; };
 // The first two and the tape once more: where they fit, or in windows that do (server/engine/residency/tape_windows.h).
-layout(std140, binding = 16) uniform UniformLeaves { vec4 uniform_leaves[4096]; };
-layout(std140, binding = 17) uniform UniformOperations { vec4 uniform_operations[4096]; };
-layout(std140, binding = 18) uniform UniformTape { uvec4 uniform_tape[4096]; };
+layout(std140, binding = BINDING_SCENE_UNIFORM_LEAVES) uniform UniformLeaves { vec4 uniform_leaves[WINDOW_SIZE]; };
+layout(std140, binding = BINDING_SCENE_UNIFORM_OPERATIONS) uniform UniformOperations {
+  vec4 uniform_operations[WINDOW_SIZE];
+};
+layout(std140, binding = BINDING_SCENE_UNIFORM_TAPE) uniform UniformTape { uvec4 uniform_tape[WINDOW_SIZE]; };
 
 // On lavapipe a load from a storage buffer inside of a loop is a loop over the lanes, and one from a uniform buffer some
 // 100 instructions a vec4, also where all lanes ask for the same. So with subgroups of 8 each lane loads one word of two
 // vec4s, and takes the others' by shuffles of one instruction: sums are sampled in 0.6 of the time. All invocations of a
 // subgroup must be active.
-#define shares_loads() ((UNIFORM_SET & 8u) != 0u)
+#define shares_loads() ((UNIFORM_SET & LOADS_ARE_SHARED) != 0u)
 
 // Two consecutive vec4s.
 struct Pair {
@@ -35,7 +39,7 @@ vec4 of_lanes(float word, uint from) {
 
 vec4 leaf_at(uint i) {
   if (shares_loads()) return of_lanes(uniform_leaves[i][shared_word()], 0u);
-  if ((UNIFORM_SET & 1u) != 0u) return uniform_leaves[i];
+  if ((UNIFORM_SET & LEAVES_ARE_UNIFORM) != 0u) return uniform_leaves[i];
   return leaves[i];
 }
 Pair leaf_pair_at(uint i) {
@@ -45,7 +49,7 @@ Pair leaf_pair_at(uint i) {
 }
 vec4 operation_at(uint i) {
   if (shares_loads()) return of_lanes(uniform_operations[i][shared_word()], 0u);
-  if ((UNIFORM_SET & 2u) != 0u) return uniform_operations[i];
+  if ((UNIFORM_SET & OPERATIONS_ARE_UNIFORM) != 0u) return uniform_operations[i];
   return operations[i];
 }
 
@@ -54,7 +58,7 @@ uvec4 instruction_at(uint i) {
     uint word = uniform_tape[i][shared_word()];
     return uvec4(subgroupShuffle(word, 0u), subgroupShuffle(word, 1u), subgroupShuffle(word, 2u), 0u);
   }
-  if ((UNIFORM_SET & 4u) != 0u) return uniform_tape[i];
+  if ((UNIFORM_SET & TAPE_IS_UNIFORM) != 0u) return uniform_tape[i];
   return tape[i];
 }
 

@@ -9,7 +9,6 @@
 #include "polynomials.glsl"  // written at build time
 
 // Mirrors server/operators/profile_table.h.
-const int SILHOUETTE_CELLS = 512;
 
 // Value, first and second derivative at a place counted in cells.
 vec3 profile(uint table, int cells, float x) {

@@ -4,13 +4,14 @@
 #define VOLUME_GLSL
 
 #include "angles.glsl"
+#include "bindings.glsl"
 #include "gradient_blend.glsl"
 
 // (g, dg/df1, dg/df2, dg/dtheta) at size^3 nodes over f1, f2 in [0, 1] and theta in [0, pi/4], f1 fastest.
-layout(std430, binding = 12) readonly buffer Volume0 { vec4 volume0[]; };
-layout(std430, binding = 13) readonly buffer Volume1 { vec4 volume1[]; };
-layout(std430, binding = 14) readonly buffer Volume2 { vec4 volume2[]; };
-layout(std430, binding = 15) readonly buffer Volume3 { vec4 volume3[]; };
+layout(std430, binding = BINDING_SCENE_FIRST_VOLUME) readonly buffer Volume0 { vec4 volume0[]; };
+layout(std430, binding = BINDING_SCENE_FIRST_VOLUME + 1) readonly buffer Volume1 { vec4 volume1[]; };
+layout(std430, binding = BINDING_SCENE_FIRST_VOLUME + 2) readonly buffer Volume2 { vec4 volume2[]; };
+layout(std430, binding = BINDING_SCENE_FIRST_VOLUME + 3) readonly buffer Volume3 { vec4 volume3[]; };
 
 #define IF_SLOT(candidate) \
   if ((VOLUME_SET >> (candidate) & 1u) != 0u) if (VOLUME_SET == 1u << (candidate) || slot == (candidate))

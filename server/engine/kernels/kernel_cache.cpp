@@ -5,6 +5,7 @@
 
 #include "base/least_used.h"
 #include "base/status_macros.h"
+#include "engine/kernels/bindings.h"
 #include "engine/request_times.h"
 #include "gpu/commands.h"
 
@@ -46,7 +47,8 @@ std::uint32_t only_opcode(const blobtree::Codes& codes, std::uint32_t stack_dept
 // Parameters that fit into a uniform buffer.
 std::uint32_t fitting_parameters(const blobtree::Tape& tape) {
   constexpr std::size_t kMost = gpu::kUniformBytes / 16;
-  return (tape.leaf_records <= kMost ? 1u : 0u) | (tape.record_owners.size() <= kMost ? 2u : 0u);
+  return (tape.leaf_records <= kMost ? kLeavesAreUniform : 0u) |
+         (tape.record_owners.size() <= kMost ? kOperationsAreUniform : 0u);
 }
 
 }  // namespace

@@ -6,15 +6,9 @@
 
 #include "blobtree/cull/lattice.h"
 #include "blobtree/tape/tape.h"
+#include "engine/mesh/mesh_layout.h"
 
 namespace isofield::engine {
-
-// Of a brick, as bits; mirrored in shaders/lib/mesh_crossings.glsl.
-enum BrickKind : std::uint32_t {
-  kKnowsCrossings = 1,  // with the normals there: vertices of this brick or of one below it are placed by them
-  kMayCrease = 2,       // something on its tape may make the surface turn within less than a cell
-  kHasCreases = 4,      // a vertex was found that lies on one
-};
 
 // kKnowsCrossings and kMayCrease of every brick, from its tape. `neighbours` as brick_neighbours gives them. Sums,
 // blends that never become a sharp union where gradients differ by 30 to 150 degrees, and round shapes make no crease.

@@ -118,26 +118,14 @@ std::vector<std::uint32_t> brick_neighbours(const std::vector<Brick>& bricks) {
   const auto key = [](std::uint64_t x, std::uint64_t y, std::uint64_t z) {
     return (x + 1) | (y + 1) << 21 | (z + 1) << 42;
   };
-  constexpr std::array<std::array<int, 3>, kNeighbours> kSteps{{{-1, 0, 0},
-                                                                {1, 0, 0},
-                                                                {0, -1, 0},
-                                                                {0, 1, 0},
-                                                                {0, 0, -1},
-                                                                {0, 0, 1},
-                                                                {0, -1, -1},
-                                                                {-1, 0, -1},
-                                                                {-1, -1, 0},
-                                                                {0, 1, 1},
-                                                                {1, 0, 1},
-                                                                {1, 1, 0}}};
   absl::flat_hash_map<std::uint64_t, std::uint32_t> places;
   places.reserve(bricks.size());
   for (std::uint32_t i = 0; i < bricks.size(); ++i) places.emplace(key(bricks[i].x, bricks[i].y, bricks[i].z), i);
-  std::vector<std::uint32_t> neighbours(kNeighbours * bricks.size(), ~0u);
+  std::vector<std::uint32_t> neighbours(kNeighbours * bricks.size(), kNoBrick);
   for (std::size_t i = 0; i < bricks.size(); ++i) {
     for (std::size_t n = 0; n < kNeighbours; ++n) {
-      const auto it =
-          places.find(key(bricks[i].x + kSteps[n][0], bricks[i].y + kSteps[n][1], bricks[i].z + kSteps[n][2]));
+      const auto& step = kNeighbourSteps[n];
+      const auto it = places.find(key(bricks[i].x + step[0], bricks[i].y + step[1], bricks[i].z + step[2]));
       if (it != places.end()) neighbours[kNeighbours * i + n] = it->second;
     }
   }

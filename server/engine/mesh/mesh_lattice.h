@@ -3,10 +3,13 @@
 
 #include <absl/status/statusor.h>
 
-#include <array>
-#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
 
 #include "blobtree/cull/lattice.h"
+#include "engine/mesh/mesh_layout.h"
 #include "engine/mesh/mesh_request.h"
 
 namespace isofield::engine {
@@ -42,9 +45,7 @@ absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const M
                                              const std::function<bool()>& cancelled,
                                              const base::ForEach& for_each = {});
 
-// For each brick the places of the twelve neighbours that shaders/lib/mesh_neighbours.glsl names, or ~0.
-inline constexpr std::size_t kNeighbours = 12;
-inline constexpr std::array<std::size_t, 6> kNeighboursAbove{1, 3, 5, 9, 10, 11};
+// For each brick the places of its neighbours by kNeighbourSteps, or kNoBrick.
 std::vector<std::uint32_t> brick_neighbours(const std::vector<blobtree::Brick>& bricks);
 
 }  // namespace isofield::engine

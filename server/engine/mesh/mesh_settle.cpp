@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/status_macros.h"
+#include "engine/kernels/bindings.h"
 #include "engine/mesh/mesh_samples.h"
 
 namespace isofield::engine {
@@ -13,21 +14,24 @@ namespace {
 
 using gpu::Buffer;
 
-// The parts of listed bricks that hold such samples: place in the list * kSampleParts + part.
-absl::StatusOr<std::vector<std::uint32_t>> find_parts(Session session, const Kernels& kernels, MeshConstants constants,
-                                                      const Buffer& listed, const Buffer& samples) {
+// The octets of listed bricks that hold such samples: place in the list * kOctets + octet.
+absl::StatusOr<std::vector<std::uint32_t>> find_octets(Session session, const Kernels& kernels, MeshConstants constants,
+                                                       const Buffer& listed, const Buffer& samples) {
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels.get(shaders::kMeshNear));
-  std::vector<std::uint32_t> is_near(std::size_t{kSampleParts} * constants.count);
-  ISOFIELD_ASSIGN_OR_RETURN(const Buffer near_buffer, session.scratch(4 * is_near.size()));
-  ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel, {{5, &listed}, {6, &samples}, {7, &near_buffer}},
+  std::vector<std::uint32_t> is_near(std::size_t{kOctets} * constants.count);
+  ISOFIELD_ASSIGN_OR_RETURN(const Buffer* const near_octets, session.lend_scratch(4 * is_near.size()));
+  ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel,
+                                                       {{binding::mesh_near::kListed, &listed},
+                                                        {binding::mesh_near::kSamples, &samples},
+                                                        {binding::mesh_near::kNearOctets, near_octets}},
                                                        constants, mesh_groups(is_near.size())));
-  ISOFIELD_RETURN_IF_ERROR(session.download(near_buffer, std::span(is_near)));
+  ISOFIELD_RETURN_IF_ERROR(session.download(*near_octets, std::span(is_near)));
   ISOFIELD_RETURN_IF_ERROR(session.run());
-  std::vector<std::uint32_t> parts;
+  std::vector<std::uint32_t> octets;
   for (std::uint32_t n = 0; n < is_near.size(); ++n) {
-    if (is_near[n] != 0) parts.push_back(n);
+    if (is_near[n] != 0) octets.push_back(n);
   }
-  return parts;
+  return octets;
 }
 
 }  // namespace
@@ -46,7 +50,11 @@ absl::Status classify(Session& session, const Kernels& kernels, const MeshConsta
                       const Buffer& near_bricks, const Buffer& listed) {
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels.get(shaders::kMeshClassify));
   return session.commands().dispatch(kernel,
-                                     {{5, &slab.samples}, {6, &slab.cases}, {7, &near_bricks}, {8, &listed}}, constants,
+                                     {{binding::mesh_classify::kSamples, &slab.samples},
+                                      {binding::mesh_classify::kCases, &slab.cases},
+                                      {binding::mesh_classify::kNearBricks, &near_bricks},
+                                      {binding::mesh_classify::kListed, &listed}},
+                                     constants,
                                      mesh_groups(std::uint64_t{constants.count} * blobtree::kCellsPerBrick / 4));
 }
 
@@ -61,34 +69,37 @@ absl::Status settle_samples(gpu::Device& device, const Kernels& kernels, BrickTa
   if (near_bricks.empty()) return absl::OkStatus();
   constants.first = slab.first;
   constants.count = static_cast<std::uint32_t>(near_bricks.size());
-  constants.flags |= 4;
+  constants.flags |= kIsListed;
   ISOFIELD_ASSIGN_OR_RETURN(Session first, Session::begin(device));
   ISOFIELD_ASSIGN_OR_RETURN(const Buffer listed, first.upload(std::span(near_bricks)));
-  ISOFIELD_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> parts,
-                            find_parts(std::move(first), kernels, constants, listed, slab.samples));
+  ISOFIELD_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> octets,
+                            find_octets(std::move(first), kernels, constants, listed, slab.samples));
   BrickTapes::Jobs jobs;
-  for (const std::uint32_t part : parts) {
-    const std::uint32_t brick = slab.first + near_bricks[part / kSampleParts];
-    jobs[tapes.group_of(brick)].push_back({brick, part});
+  for (const std::uint32_t octet : octets) {
+    const std::uint32_t brick = slab.first + near_bricks[octet / kOctets];
+    jobs[tapes.kernel_of(brick)].push_back({brick, octet});
   }
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline settle, kernels.get(shaders::kMeshSettle));
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device));
-  constexpr std::size_t kEdge = blobtree::kBrickCells + 1, kCorners = kEdge * kEdge * kEdge;
-  ISOFIELD_ASSIGN_OR_RETURN(const Buffer beside, session.scratch(sizeof(float) * kCorners * near_bricks.size()));
-  ISOFIELD_ASSIGN_OR_RETURN(const Buffer part_buffer, session.upload(std::span(parts)));
-  ISOFIELD_ASSIGN_OR_RETURN(const Buffer unused, session.scratch(4 * is_near.size()));
-  std::vector<Buffer> keep;
-  keep.reserve(1);
-  ISOFIELD_RETURN_IF_ERROR(tapes.run(session, shaders::kMeshSample, constants, jobs, kSamplePartsPerGroup,
-                                     {{4, &bricks}, {6, &beside}}, keep));
+  ISOFIELD_ASSIGN_OR_RETURN(const Buffer* const beside,
+                            session.lend_scratch(sizeof(float) * kCornersPerBrick * near_bricks.size()));
+  ISOFIELD_ASSIGN_OR_RETURN(const Buffer* const octet_list, session.lend(std::span(octets)));
+  ISOFIELD_ASSIGN_OR_RETURN(const Buffer* const unused, session.lend_scratch(4 * is_near.size()));
+  ISOFIELD_RETURN_IF_ERROR(
+      tapes.run(session, shaders::kMeshSample, constants, jobs, kOctetsPerWorkgroup,
+                {{binding::lattice::kBricks, &bricks}, {binding::mesh_sample::kSamples, beside}}));
   session.commands().barrier();
-  MeshConstants of_parts = constants;
-  of_parts.count = static_cast<std::uint32_t>(parts.size());
-  ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-      settle, {{5, &part_buffer}, {6, &slab.samples}, {7, &beside}, {8, &listed}}, of_parts,
-      (of_parts.count + kSamplePartsPerGroup - 1) / kSamplePartsPerGroup));
+  MeshConstants of_octets = constants;
+  of_octets.count = static_cast<std::uint32_t>(octets.size());
+  ISOFIELD_RETURN_IF_ERROR(
+      session.commands().dispatch(settle,
+                                  {{binding::mesh_settle::kOctets, octet_list},
+                                   {binding::mesh_settle::kSamples, &slab.samples},
+                                   {binding::mesh_settle::kBeside, beside},
+                                   {binding::mesh_settle::kListed, &listed}},
+                                  of_octets, mesh_groups(std::uint64_t{of_octets.count} * kOctetCorners)));
   session.commands().barrier();
-  ISOFIELD_RETURN_IF_ERROR(classify(session, kernels, constants, slab, unused, listed));
+  ISOFIELD_RETURN_IF_ERROR(classify(session, kernels, constants, slab, *unused, listed));
   return session.run();
 }
 

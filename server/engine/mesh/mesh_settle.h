@@ -8,7 +8,7 @@
 
 #include "engine/kernels/kernel_cache.h"
 #include "engine/mesh/brick_tapes.h"
-#include "engine/mesh/mesh_constants.h"
+#include "engine/mesh/mesh_layout.h"
 #include "engine/mesh/mesh_rounding.h"
 #include "engine/session.h"
 #include "gpu/device.h"
@@ -24,8 +24,8 @@ struct SampledSlab {
   const gpu::Buffer& cases;
 };
 
-// Records which corners of cells are inside: of constants.count bricks of the slab or, where constants.flags has 4, of
-// those that are listed. near_bricks becomes 1 for each that has samples near the surface, and else stays.
+// Records which corners of cells are inside: of constants.count bricks of the slab or, with kIsListed, of those that
+// are listed. near_bricks becomes 1 for each that has samples near the surface, and else stays.
 absl::Status classify(Session& session, const Kernels& kernels, const MeshConstants& constants, const SampledSlab& slab,
                       const gpu::Buffer& near_bricks, const gpu::Buffer& listed);
 

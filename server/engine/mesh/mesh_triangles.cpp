@@ -5,17 +5,12 @@
 #include <utility>
 
 #include "base/status_macros.h"
+#include "engine/kernels/bindings.h"
 #include "engine/session.h"
 
 namespace isofield::engine {
-namespace {
 
 using gpu::Buffer;
-
-// CUT_FAN of shaders/lib/mesh_quads.glsl.
-constexpr std::uint32_t kCutFan = 2;
-
-}  // namespace
 
 gpu::Commands::Bindings QuadCutter::with_quads(const gpu::Commands::Bindings& own) const {
   gpu::Commands::Bindings all = quads_;
@@ -38,8 +33,12 @@ absl::Status QuadCutter::cut(const Buffer& positions, const Buffer& kinds, bool 
     constants.first = first;
     constants.count = std::min(most, total - first);
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        kernel, with_quads({{11, &positions}, {12, &cuts_buffer_}, {13, &kinds}, {14, &corners_}}), constants,
-        mesh_groups(constants.count)));
+        kernel,
+        with_quads({{binding::mesh::kPositions, &positions},
+                    {binding::mesh_quads::kCuts, &cuts_buffer_},
+                    {binding::mesh_quads::kKinds, &kinds},
+                    {binding::mesh_quads::kCorners, &corners_}}),
+        constants, mesh_groups(constants.count)));
     if (first + constants.count == total) {
       ISOFIELD_RETURN_IF_ERROR(session.download(cuts_buffer_, std::span(cuts_)));
     }
@@ -79,15 +78,19 @@ absl::StatusOr<Buffer> QuadCutter::make(std::vector<std::uint32_t>& corners, std
     const std::size_t begin = std::size_t{6} * (first + fans_before(first));
     const std::size_t end = std::size_t{6} * (first + count + fans_before(first + count));
     ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
-    ISOFIELD_ASSIGN_OR_RETURN(const Buffer triangles, session.scratch(4 * (end - begin)));
+    ISOFIELD_ASSIGN_OR_RETURN(const Buffer* const triangles, session.lend_scratch(4 * (end - begin)));
     MeshConstants constants = constants_;
     constants.first = first;
     constants.count = count;
     ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
         kernel,
-        with_quads({{11, &corners_}, {12, &cuts_buffer_}, {13, &triangles}, {14, &centres}, {15, &fan_starts_buffer_}}),
+        with_quads({{binding::mesh_triangles::kCorners, &corners_},
+                    {binding::mesh_triangles::kCuts, &cuts_buffer_},
+                    {binding::mesh_triangles::kTriangles, triangles},
+                    {binding::mesh_triangles::kCentres, &centres},
+                    {binding::mesh_triangles::kFanStarts, &fan_starts_buffer_}}),
         constants, mesh_groups(count)));
-    ISOFIELD_RETURN_IF_ERROR(session.download(triangles, std::span(corners).subspan(begin, end - begin)));
+    ISOFIELD_RETURN_IF_ERROR(session.download(*triangles, std::span(corners).subspan(begin, end - begin)));
     if (first + count == total) {
       ISOFIELD_RETURN_IF_ERROR(session.download(centres, std::span(positions)));
     }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/kernels/kernel_cache.h"
-#include "engine/mesh/mesh_constants.h"
+#include "engine/mesh/mesh_layout.h"
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 
@@ -34,7 +34,7 @@ class QuadCutter {
         starts_(starts),
         check_(check) {}
 
-  // Decides how each quad is cut. `kinds`: of bricks, by mesh_creases.h; `is_smooth`: none of them may have creases.
+  // Decides how each quad is cut. `kinds`: BrickKind of bricks; `is_smooth`: none of them may have creases.
   absl::Status cut(const gpu::Buffer& positions, const gpu::Buffer& kinds, bool is_smooth);
 
   // First fan of each brick, and the total.

@@ -39,7 +39,7 @@ struct PointBatch {
 
 // Small batches that wait when the device becomes free, of one scene and one quantity, go to it together, the most
 // urgent first: higher priority, then earlier deadline, then first come; the last of every `patience` submissions is
-// that of the batch that has waited longest. A large batch goes alone, and small ones pass between its pieces.
+// that of the batch that has waited longest. A large batch goes alone, and small ones pass between its slabs.
 //
 // A caller who finds nobody at it runs the next submission, with what is in it, so that a lone batch costs no change of
 // threads; what waits then is the queue's own thread's, and the next caller's. Thread-safe; nothing may wait when it is
@@ -66,7 +66,7 @@ class EvaluationQueue {
   // submission.
   using Done = std::function<void(const absl::Status&)>;
 
-  // DEADLINE_EXCEEDED, CANCELLED: before it was run, or between pieces. Others: those of the evaluation, which all in a
+  // DEADLINE_EXCEEDED, CANCELLED: before it was run, or between slabs. Others: those of the evaluation, which all in a
   // submission share. A large batch is run before this returns.
   void submit(PointBatch batch, Done done);
   // The same, and waits for the outcome.

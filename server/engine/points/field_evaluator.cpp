@@ -9,6 +9,7 @@
 #include "base/status_macros.h"
 #include "blobtree/cull/point_bins.h"
 #include "engine/dealing.h"
+#include "engine/kernels/bindings.h"
 #include "engine/residency/tape_windows.h"
 #include "engine/session.h"
 
@@ -68,6 +69,7 @@ const shaders::Spirv& points_shader(Quantity quantity, bool is_sorted) {
   return is_sorted ? shaders::kSortedPointsGradient : shaders::kPointsGradient;
 }
 
+// Of shaders/grid.comp.
 struct GridConstants {
   float origin[4];
   float spacing[4];
@@ -76,6 +78,8 @@ struct GridConstants {
   std::uint32_t first_layer;
   std::uint32_t layers;
 };
+static_assert(offsetof(GridConstants, spacing) == 16 && offsetof(GridConstants, counts) == 32 &&
+              offsetof(GridConstants, first_brick) == 44 && offsetof(GridConstants, layers) == 52);
 
 }  // namespace
 
@@ -100,18 +104,18 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
   const bool may_make = !submission.turn;  // which takes a turn of its own
   ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, may_make, cancelled));
   if (index) return evaluate_indexed(*index, scene, xyz, quantity, out, cancelled, std::move(submission));
-  blobtree::PointBins bins = blobtree::bin_points(scene.tape(), xyz);
-  TapeWindows tapes(device_, scene, std::move(bins.code));
-  std::vector<Group> groups;
-  for (const blobtree::PointGroup& g : bins.groups) {
-    groups.push_back({g.first, g.count, g.tape_begin, g.tape_count, 0});
-    if (g.tape_count > 0) groups.back().window = tapes.add(groups.back().tape_begin, g.tape_count);
+  blobtree::PointBins binned = blobtree::bin_points(scene.tape(), xyz);
+  TapeWindows tapes(device_, scene, std::move(binned.code));
+  std::vector<Bin> bins;
+  for (const blobtree::PointGroup& g : binned.groups) {
+    Bin& bin = bins.emplace_back(g.first, g.count, g.tape_begin, g.tape_count, 0u);
+    if (g.tape_count > 0) bin.window = tapes.add(bin.tape_begin, g.tape_count);
   }
-  ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
-  piece.sorted = std::move(bins.points);
-  ISOFIELD_RETURN_IF_ERROR(tapes.upload(piece.session));
-  ISOFIELD_RETURN_IF_ERROR(record(piece, scene, tapes, groups, quantity, out, cancelled));
-  return piece.session.run();
+  ISOFIELD_ASSIGN_OR_RETURN(Slab slab, begin_slab(submission));
+  slab.sorted = std::move(binned.points);
+  ISOFIELD_RETURN_IF_ERROR(tapes.upload(slab.session));
+  ISOFIELD_RETURN_IF_ERROR(record(slab, scene, tapes, bins, quantity, out, cancelled));
+  return slab.session.run();
 }
 
 absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const ResidentScene& scene,
@@ -121,33 +125,33 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
   const std::size_t most =
       std::max<std::size_t>(profile().indexed_points, profile().indexed_points_per_brick * bricks);
   const std::uint32_t points_per_job = this->points_per_job();
-  std::optional<Piece> running;
+  std::optional<Slab> running;
   for (std::size_t first = 0; first < count; first += most) {
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
     const std::size_t part = std::min(most, count - first);
     const std::span<const float> part_xyz = xyz.subspan(3 * first, 3 * part);
     blobtree::PointGrid::Sorted sorted = index.grid().sort(part_xyz, workers_.for_each());
-    std::vector<Group> groups;
+    std::vector<Bin> bins;
     std::uint64_t work = 0;
     for (std::size_t b = 0; b <= bricks; ++b) {
       const std::uint32_t begin = sorted.starts[b], points = sorted.starts[b + 1] - begin;
       if (points == 0) continue;
       const PointIndex::Tape tape = b < bricks ? index.tapes()[b] : PointIndex::Tape{};
-      groups.push_back({begin, points, tape.begin, tape.count, tape.window});
+      bins.push_back({begin, points, tape.begin, tape.count, tape.window});
       work += std::uint64_t{(points + points_per_job - 1) / points_per_job * points_per_job} * tape.count;
     }
     // What is too much for one submission is submitted while it is recorded, and takes the turn that `running` holds.
     if (work >= profile().submission_work) ISOFIELD_RETURN_IF_ERROR(finish(running));
-    ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
-    piece.sorted = std::move(sorted.points);
-    ISOFIELD_RETURN_IF_ERROR(record(piece, scene, index.windows(), groups, quantity,
+    ISOFIELD_ASSIGN_OR_RETURN(Slab slab, begin_slab(submission));
+    slab.sorted = std::move(sorted.points);
+    ISOFIELD_RETURN_IF_ERROR(record(slab, scene, index.windows(), bins, quantity,
                                     out.subspan(first * components(quantity), part * components(quantity)), cancelled));
-    ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(piece)));
+    ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(slab)));
   }
   return finish(running);
 }
 
-absl::Status FieldEvaluator::submit_after(std::optional<Piece>& running, Piece next) {
+absl::Status FieldEvaluator::submit_after(std::optional<Slab>& running, Slab next) {
   if (running) ISOFIELD_RETURN_IF_ERROR(running->session.wait());
   ISOFIELD_RETURN_IF_ERROR(next.session.submit());
   if (running) running->session.collect();
@@ -155,7 +159,7 @@ absl::Status FieldEvaluator::submit_after(std::optional<Piece>& running, Piece n
   return absl::OkStatus();
 }
 
-absl::Status FieldEvaluator::finish(std::optional<Piece>& running) {
+absl::Status FieldEvaluator::finish(std::optional<Slab>& running) {
   if (running) {
     ISOFIELD_RETURN_IF_ERROR(running->session.wait());
     running->session.collect();
@@ -164,43 +168,43 @@ absl::Status FieldEvaluator::finish(std::optional<Piece>& running) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<FieldEvaluator::Piece> FieldEvaluator::begin_piece(Submission& submission) {
+absl::StatusOr<FieldEvaluator::Slab> FieldEvaluator::begin_slab(Submission& submission) {
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_, submission.urgency, std::move(submission.turn)));
   submission.turn = {};
-  return Piece{nullptr, {}, std::move(session)};
+  return Slab{nullptr, std::move(session)};
 }
 
-absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes,
-                                    std::span<const Group> groups, Quantity quantity, std::span<float> out,
+absl::Status FieldEvaluator::record(Slab& slab, const ResidentScene& scene, const TapeWindows& tapes,
+                                    std::span<const Bin> bins, Quantity quantity, std::span<float> out,
                                     const Cancelled& cancelled) {
   const std::size_t count = out.size() / components(quantity);
   const std::uint32_t points_per_job = this->points_per_job();
   const std::uint32_t jobs_per_group = kPointsPerGroup / points_per_job;
   std::vector<PointJob> jobs;
   std::vector<std::uint32_t> windows;
-  const auto with_tape = std::find_if(groups.begin(), groups.end(), [](const Group& g) { return g.tape_count > 0; });
-  if (with_tape == groups.end()) {
+  const auto with_tape = std::find_if(bins.begin(), bins.end(), [](const Bin& b) { return b.tape_count > 0; });
+  if (with_tape == bins.end()) {
     std::fill(out.begin(), out.end(), 0.0f);
     return absl::OkStatus();
   }
-  jobs.reserve(count / points_per_job + groups.size());
+  jobs.reserve(count / points_per_job + bins.size());
   windows.reserve(jobs.capacity());
   std::uint32_t window = with_tape->window;  // where the field is 0, any will do
-  for (const Group& g : groups) {
-    if (g.tape_count > 0) window = g.window;
-    const std::uint32_t last = g.first + g.count - 1;
-    for (std::uint32_t at = g.first; at <= last; at += points_per_job) {
-      jobs.push_back({g.tape_begin, g.tape_count, at, last});
+  for (const Bin& b : bins) {
+    if (b.tape_count > 0) window = b.window;
+    const std::uint32_t last = b.first + b.count - 1;
+    for (std::uint32_t at = b.first; at <= last; at += points_per_job) {
+      jobs.push_back({b.tape_begin, b.tape_count, at, last});
       windows.push_back(window);
     }
   }
   const std::vector<JobRun> runs =
       runs_of(jobs, windows, device_, [&](const PointJob& job) { return std::uint64_t{job[1]} * points_per_job; });
-  const std::span sorted(reinterpret_cast<const float*>(piece.sorted.get()), 4 * count);
-  Session& session = piece.session;
-  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer job_buffer, session.upload(std::span(jobs)));
-  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.input(sorted));
-  ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(out));
+  const std::span sorted(reinterpret_cast<const float*>(slab.sorted.get()), 4 * count);
+  Session& session = slab.session;
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const job_buffer, session.lend(std::span(jobs)));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const points, session.input(sorted));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const results, session.output(out));
   const KernelKind kind = KernelKind::of(scene.tape());
   ISOFIELD_RETURN_IF_ERROR(record_runs(session, runs, cancelled, [&](const JobRun& run) -> absl::Status {
     const std::array constants{static_cast<std::uint32_t>(run.first),
@@ -209,12 +213,12 @@ absl::Status FieldEvaluator::record(Piece& piece, const ResidentScene& scene, co
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel,
                               kernels_.get(points_shader(quantity, true), tapes.kind(kind, run.window)));
     return session.commands().dispatch(kernel,
-                                       tapes.bindings(run.window, {{4, &job_buffer}, {5, &points}, {7, &results}}),
+                                       tapes.bindings(run.window, {{binding::sorted_points::kJobs, job_buffer},
+                                                                   {binding::sorted_points::kPoints, points},
+                                                                   {binding::points::kResults, results}}),
                                        constants, (run.count + jobs_per_group - 1) / jobs_per_group);
   }));
-  ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
-  for (gpu::Buffer* b : {&job_buffer, &points, &results}) piece.buffers.push_back(std::move(*b));
-  return absl::OkStatus();
+  return session.download(*results, out);
 }
 
 template <class Dispatch>
@@ -223,21 +227,22 @@ absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const
                                                const Dispatch& dispatch) {
   const std::size_t count = xyz.size() / 3;
   most = std::min(most, kMostPoints);
-  std::optional<Piece> running;
+  std::optional<Slab> running;
   for (std::size_t first = 0; first < count; first += most) {
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
     const std::size_t part = std::min(most, count - first);
-    ISOFIELD_ASSIGN_OR_RETURN(Piece piece, begin_piece(submission));
-    Session& session = piece.session;
+    ISOFIELD_ASSIGN_OR_RETURN(Slab slab, begin_slab(submission));
+    Session& session = slab.session;
     const std::span<float> part_out = out.subspan(first * components(quantity), part * components(quantity));
-    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer points, session.input(xyz.subspan(3 * first, 3 * part)));
-    ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer results, session.output(part_out));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const points, session.input(xyz.subspan(3 * first, 3 * part)));
+    ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const results, session.output(part_out));
     const auto last = static_cast<std::uint32_t>(part - 1);
     ISOFIELD_RETURN_IF_ERROR(
-        dispatch(session, gpu::Commands::Bindings{{6, &points}, {7, &results}}, last, last / kPointsPerGroup + 1));
-    ISOFIELD_RETURN_IF_ERROR(session.download(results, part_out));
-    for (gpu::Buffer* b : {&points, &results}) piece.buffers.push_back(std::move(*b));
-    ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(piece)));
+        dispatch(session,
+                 gpu::Commands::Bindings{{binding::points::kPoints, points}, {binding::points::kResults, results}}, last,
+                 last / kPointsPerGroup + 1));
+    ISOFIELD_RETURN_IF_ERROR(session.download(*results, part_out));
+    ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(slab)));
   }
   return finish(running);
 }
@@ -300,9 +305,9 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
   constexpr std::uint64_t kPoints = blobtree::kCellsPerBrick;
   const std::vector<JobRun> runs =
       runs_of(wanted, windows, device_, [&](const Brick& b) { return b.tape_count * kPoints; });
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer brick_buffer, session.upload(std::span(wanted)));
-  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer results, session.scratch(out.size_bytes()));
-  session.commands().fill_zero(results);
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const brick_buffer, session.lend(std::span(wanted)));
+  ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const results, session.lend_scratch(out.size_bytes()));
+  session.commands().fill_zero(*results);
   session.commands().barrier();
   GridConstants constants{{static_cast<float>(lattice.origin.x), static_cast<float>(lattice.origin.y),
                            static_cast<float>(lattice.origin.z)},
@@ -316,10 +321,13 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
   ISOFIELD_RETURN_IF_ERROR(record_runs(session, runs, cancelled, [&](const JobRun& run) -> absl::Status {
     constants.first_brick = static_cast<std::uint32_t>(run.first);
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shader, tapes.kind(kind, run.window)));
-    return session.commands().dispatch(kernel, tapes.bindings(run.window, {{4, &brick_buffer}, {7, &results}}),
-                                       constants, run.count);
+    return session.commands().dispatch(
+        kernel,
+        tapes.bindings(run.window,
+                       {{binding::lattice::kBricks, brick_buffer}, {binding::points::kResults, results}}),
+        constants, run.count);
   }));
-  ISOFIELD_RETURN_IF_ERROR(session.download(results, out));
+  ISOFIELD_RETURN_IF_ERROR(session.download(*results, out));
   return session.run();
 }
 

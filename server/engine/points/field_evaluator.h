@@ -76,22 +76,21 @@ class FieldEvaluator {
                                 Quantity quantity, std::span<float> out, const Cancelled& cancelled,
                                 Submission submission);
 
-  // Points of one tape, consecutive in Piece::sorted; the window as of TapeWindows::add. No tape: the field is 0.
-  struct Group {
+  // Points of one tape, consecutive in Slab::sorted; the window as of TapeWindows::add. No tape: the field is 0.
+  struct Bin {
     std::uint32_t first, count, tape_begin, tape_count, window;
   };
-  // The objects that a submission needs until it is done.
-  struct Piece {
+  // Points of a batch whose work is one submission, while it needs them.
+  struct Slab {
     std::unique_ptr<blobtree::PlacedPoint[]> sorted;  // null: the points are as the batch has them
-    std::vector<gpu::Buffer> buffers;
-    Session session;  // the last member, since it waits for the device, which uses the others
+    Session session;                                  // the last member, since it waits for the device, which uses the other
   };
-  absl::StatusOr<Piece> begin_piece(Submission& submission);
+  absl::StatusOr<Slab> begin_slab(Submission& submission);
   // Submits when `running`, if any, is done, and takes its place.
-  static absl::Status submit_after(std::optional<Piece>& running, Piece next);
-  static absl::Status finish(std::optional<Piece>& running);
+  static absl::Status submit_after(std::optional<Slab>& running, Slab next);
+  static absl::Status finish(std::optional<Slab>& running);
   std::uint32_t points_per_job() const { return static_cast<std::uint32_t>(profile().points_per_job); }
-  absl::Status record(Piece& piece, const ResidentScene& scene, const TapeWindows& tapes, std::span<const Group> groups,
+  absl::Status record(Slab& slab, const ResidentScene& scene, const TapeWindows& tapes, std::span<const Bin> bins,
                       Quantity quantity, std::span<float> out, const Cancelled& cancelled);
 
   gpu::Device& device_;

@@ -15,7 +15,7 @@ bool is_writable(const blobtree::Tape& tape);
 // the same functions. Tapes of one structure, whatever their parameters, give the same text.
 std::string write_tape(const blobtree::Tape& tape);
 
-// The constants of shaders/lib/opcodes.glsl as macros.
+// The specialisation constants of kernel_constants.h as macros.
 std::string write_definitions(const KernelKind& kind, bool with_gradient);
 
 }  // namespace isofield::engine

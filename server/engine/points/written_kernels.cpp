@@ -66,7 +66,8 @@ WrittenKernels::Key WrittenKernels::key_of(const blobtree::Tape& tape, bool with
 
 gpu::SharedPipeline WrittenKernels::find(const ResidentScene& scene, bool with_gradient, std::uint64_t points) {
   const blobtree::Tape& tape = scene.tape();
-  if (!options_.is_on || tape.code.size() > most_instructions(tape, device_.profile()) || !is_writable(tape)) return nullptr;
+  const bool is_short = tape.code.size() <= most_instructions(tape, device_.profile());
+  if (!options_.is_on || !is_short || !is_writable(tape)) return nullptr;
   Key key = key_of(tape, with_gradient);
   const std::lock_guard lock(mutex_);
   if (entries_.size() >= kMostStructures && !entries_.contains(key)) forget_cold();

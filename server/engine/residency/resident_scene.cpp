@@ -1,11 +1,12 @@
 #include "engine/residency/resident_scene.h"
 
 #include "base/status_macros.h"
+#include "engine/kernels/bindings.h"
 
 namespace isofield::engine {
 namespace {
 
-constexpr std::uint32_t kFirstVolumeBinding = 12;  // shaders/lib/volume.glsl
+static_assert(binding::scene::kUniformLeaves == gpu::kFirstUniformBinding);
 
 }  // namespace
 
@@ -53,14 +54,14 @@ std::uint64_t ResidentScene::device_bytes() const {
 }
 
 gpu::Commands::Bindings ResidentScene::bindings(const gpu::Buffer& code, const gpu::Commands::Bindings& own) const {
-  gpu::Commands::Bindings all{{0, leaves_.get()},
-                              {1, &operations_},
-                              {2, &tables_},
-                              {3, &code},
-                              {gpu::kFirstUniformBinding, leaves_.get()},
-                              {gpu::kFirstUniformBinding + 1, &operations_}};
+  gpu::Commands::Bindings all{{binding::scene::kLeaves, leaves_.get()},
+                              {binding::scene::kOperations, &operations_},
+                              {binding::scene::kTables, &tables_},
+                              {binding::scene::kTape, &code},
+                              {binding::scene::kUniformLeaves, leaves_.get()},
+                              {binding::scene::kUniformOperations, &operations_}};
   for (std::uint32_t slot = 0; slot < volumes_.size(); ++slot) {
-    all.push_back({kFirstVolumeBinding + slot, &volumes_[slot]->buffer()});
+    all.push_back({binding::scene::kFirstVolume + slot, &volumes_[slot]->buffer()});
   }
   all.insert(all.end(), own.begin(), own.end());
   return all;

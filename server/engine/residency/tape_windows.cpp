@@ -1,15 +1,10 @@
 #include "engine/residency/tape_windows.h"
 
 #include "base/status_macros.h"
+#include "engine/kernels/bindings.h"
 
 namespace isofield::engine {
 namespace {
-
-// shaders/lib/parameters.glsl.
-constexpr std::uint32_t kLeaves = gpu::kFirstUniformBinding, kOperations = kLeaves + 1, kTape = kLeaves + 2;
-
-// Of UNIFORM_SET: all that a window has, and whether invocations share loads.
-constexpr std::uint32_t kUniformAll = 7, kSharedLoads = 8;
 
 static_assert(blobtree::kWindowSize * sizeof(blobtree::Float4) == gpu::kUniformBytes);
 static_assert(blobtree::kWindowAlignment * sizeof(blobtree::Float4) == gpu::kUniformAlignment);
@@ -18,7 +13,8 @@ static_assert(blobtree::kWindowAlignment * sizeof(blobtree::Float4) == gpu::kUni
 
 KernelKind TapeWindows::windowed(const gpu::Device& device, const KernelKind& kind) {
   KernelKind in_windows = kind;
-  in_windows.uniform_set = kUniformAll | (device.profile().shares_loads ? kSharedLoads : 0u);
+  in_windows.uniform_set = kLeavesAreUniform | kOperationsAreUniform | kTapeIsUniform |
+                           (device.profile().shares_loads ? kLoadsAreShared : 0u);
   return in_windows;
 }
 
@@ -36,14 +32,14 @@ gpu::Commands::Bindings TapeWindows::bindings(std::uint32_t window, const gpu::C
   if (window == kNoWindow) return scene_->bindings(long_tapes_, own);
   gpu::Commands::Bindings all = scene_->bindings(windows_, own);
   const blobtree::Window& w = packer_.windows()[window];
-  const auto bind = [&](std::uint32_t binding, std::uint32_t place) {
+  const auto bind = [&](std::uint32_t number, std::uint32_t place) {
     if (place == blobtree::Window::kWhole) return;
-    std::erase_if(all, [&](const gpu::Commands::Binding& b) { return b.binding == binding; });
-    all.push_back({binding, &windows_, place * sizeof(blobtree::Float4)});
+    std::erase_if(all, [&](const gpu::Commands::Binding& b) { return b.binding == number; });
+    all.push_back({number, &windows_, place * sizeof(blobtree::Float4)});
   };
-  bind(kTape, w.code);
-  bind(kLeaves, w.leaves);
-  bind(kOperations, w.operations);
+  bind(binding::scene::kUniformTape, w.code);
+  bind(binding::scene::kUniformLeaves, w.leaves);
+  bind(binding::scene::kUniformOperations, w.operations);
   return all;
 }
 
