@@ -116,8 +116,8 @@ void CompileAhead::rehearse(const SceneLease& scene) {
   request.cell_size = std::max(longest / kCells, least_cell_size(scene->tape(), request));
   // Errors are ignored here, since a request that needs the kernel will report them.
   (void)engine_->mesher().mesh(*scene, request, {.cancelled = [this] { return is_over(); }});
-  for (const Quantity quantity : {Quantity::kValue, Quantity::kValueAndGradient}) {
-    if (!is_over()) (void)engine_->fields().prepare(*scene, quantity);
+  for (const ResultLayout layout : {ResultLayout::kValue, ResultLayout::kValueAndGradient}) {
+    if (!is_over()) (void)engine_->fields().prepare(*scene, layout);
   }
 }
 

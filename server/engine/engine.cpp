@@ -22,9 +22,9 @@ Engine::Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits&
       fields_(*device_, kernels_, workers_, &written_),
       queue_(
           device_->turns(), device_->profile(),
-          [this](const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
+          [this](const ResidentScene& scene, std::span<const float> xyz, ResultLayout layout, std::span<float> out,
                  const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
-            return fields_.evaluate(scene, xyz, quantity, out, cancelled, std::move(submission));
+            return fields_.evaluate(scene, xyz, layout, out, cancelled, std::move(submission));
           },
           queue),
       mesher_(*device_, kernels_, workers_),
@@ -58,7 +58,7 @@ absl::StatusOr<SceneLease> Engine::edit(const ResidentScene& before, const v1::S
 absl::Status Engine::prepare(const PointBatch& batch) {
   RequestTimes unasked;
   const TimedScope timed(batch.times ? *batch.times : unasked);
-  return fields_.prepare(*batch.scene, batch.quantity);
+  return fields_.prepare(*batch.scene, batch.layout);
 }
 
 absl::Status Engine::evaluate(const PointBatch& batch) {

@@ -26,14 +26,16 @@ absl::StatusOr<int> read_priority(v1::Priority priority) {
 }
 
 absl::StatusOr<SharedBytes> read_shared_result(const v1::SharedTensor& tensor, std::uint64_t rows,
-                                               std::uint64_t columns, const SharedRegions& regions) {
+                                               const engine::ResultLayout& layout, const SharedRegions& regions) {
+  const std::uint64_t columns = layout.numbers();
   if (tensor.dtype() != v1::Tensor::FLOAT32) {
     return absl::InvalidArgumentError(
         absl::StrCat("shared_result.dtype = ", static_cast<int>(tensor.dtype()), ": expected FLOAT32"));
   }
   if (tensor.shape_size() != 2 || tensor.shape(0) != rows || tensor.shape(1) != columns) {
     return absl::InvalidArgumentError(absl::StrCat("shared_result.shape = [", absl::StrJoin(tensor.shape(), ", "),
-                                                   "]: expected [", rows, ", ", columns, "]"));
+                                                   "]: expected [", rows, ", ", columns, "], rows of ",
+                                                   layout.names()));
   }
   return regions.find(tensor, rows * columns, sizeof(float), "shared_result");
 }
@@ -45,13 +47,13 @@ bool overlap(std::span<const std::byte> a, std::span<const std::byte> b) {
 
 }  // namespace
 
-absl::StatusOr<engine::Quantity> read_quantity(v1::Quantity quantity) {
+absl::StatusOr<engine::ResultLayout> read_layout(v1::Quantity quantity) {
   switch (quantity) {
     case v1::QUANTITY_UNSPECIFIED:
     case v1::VALUE:
-      return engine::Quantity::kValue;
+      return engine::ResultLayout::kValue;
     case v1::VALUE_AND_GRADIENT:
-      return engine::Quantity::kValueAndGradient;
+      return engine::ResultLayout::kValueAndGradient;
     default:
       return absl::InvalidArgumentError(
           absl::StrCat("quantity = ", static_cast<int>(quantity), ": expected VALUE or VALUE_AND_GRADIENT"));
@@ -61,7 +63,7 @@ absl::StatusOr<engine::Quantity> read_quantity(v1::Quantity quantity) {
 absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context, const scenes::SceneSource& scenes,
                                               const v1::SceneRef& scene, v1::Quantity quantity, v1::Priority priority) {
   engine::PointBatch batch;
-  ISOFIELD_ASSIGN_OR_RETURN(batch.quantity, read_quantity(quantity));
+  ISOFIELD_ASSIGN_OR_RETURN(batch.layout, read_layout(quantity));
   ISOFIELD_ASSIGN_OR_RETURN(batch.priority, read_priority(priority));
   ISOFIELD_ASSIGN_OR_RETURN(scenes::LeasedScene leased, scenes.lease(scene));
   batch.scene = std::move(leased.scene);
@@ -70,8 +72,8 @@ absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context
   return batch;
 }
 
-absl::StatusOr<MessagePoints> read_points(const PointFields& fields, engine::Quantity quantity, const Limits& limits,
-                                          const SharedRegions* regions) {
+absl::StatusOr<MessagePoints> read_points(const PointFields& fields, const engine::ResultLayout& layout,
+                                          const Limits& limits, const SharedRegions* regions) {
   if (!regions && (fields.shared_points || fields.shared_result)) {
     return absl::FailedPreconditionError(
         "the server shares no memory: start isofieldd with --shared-memory, or send the points");
@@ -88,8 +90,8 @@ absl::StatusOr<MessagePoints> read_points(const PointFields& fields, engine::Qua
     ISOFIELD_ASSIGN_OR_RETURN(message.points, PointArray::read(points, limits.max_points_per_message));
   }
   if (!fields.shared_result) return message;
-  ISOFIELD_ASSIGN_OR_RETURN(message.result, read_shared_result(*fields.shared_result, message.points.size(),
-                                                               engine::components(quantity), *regions));
+  ISOFIELD_ASSIGN_OR_RETURN(message.result,
+                            read_shared_result(*fields.shared_result, message.points.size(), layout, *regions));
   if (!fields.shared_points) return message;
   const std::uint64_t number = fields.shared_points->dtype() == v1::Tensor::FLOAT32 ? 4 : 8;
   ISOFIELD_ASSIGN_OR_RETURN(const SharedBytes points,

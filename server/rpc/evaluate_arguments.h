@@ -15,7 +15,7 @@
 
 namespace isofield::rpc {
 
-absl::StatusOr<engine::Quantity> read_quantity(v1::Quantity quantity);
+absl::StatusOr<engine::ResultLayout> read_layout(v1::Quantity quantity);
 
 // All but the points of a call, or of a stream of them. `context` must outlive the batch.
 absl::StatusOr<engine::PointBatch> read_batch(const grpc::ServerContext& context, const scenes::SceneSource& scenes,
@@ -46,7 +46,7 @@ struct MessagePoints {
 };
 
 // `regions`: null where no memory is shared. What the fields refer to must outlive the result.
-absl::StatusOr<MessagePoints> read_points(const PointFields& fields, engine::Quantity quantity, const Limits& limits,
-                                          const SharedRegions* regions);
+absl::StatusOr<MessagePoints> read_points(const PointFields& fields, const engine::ResultLayout& layout,
+                                          const Limits& limits, const SharedRegions* regions);
 
 }  // namespace isofield::rpc

@@ -64,13 +64,13 @@ std::uint64_t points_of_lattice(const blobtree::Lattice& lattice) {
 }
 
 GridEvaluation::GridEvaluation(engine::FieldEvaluator& fields, const engine::ResidentScene& scene,
-                               const blobtree::Lattice& lattice, engine::Quantity quantity, std::uint64_t most,
+                               const blobtree::Lattice& lattice, engine::ResultLayout layout, std::uint64_t most,
                                const Call& call, Writer& writer)
     : fields_(fields),
       scene_(scene),
       lattice_(lattice),
-      quantity_(quantity),
-      width_(static_cast<std::uint32_t>(engine::components(quantity))),
+      layout_(layout),
+      width_(static_cast<std::uint32_t>(layout.numbers())),
       layer_(std::uint64_t{lattice.cells[0]} * lattice.cells[1]),
       most_(most),
       cancelled_(call.cancelled()),
@@ -94,14 +94,14 @@ absl::Status GridEvaluation::send_at_once(std::uint32_t first, std::uint32_t lay
   response_.set_first_layer(first);
   const std::span<float> out = make_float_tensor({layers, lattice_.cells[1], lattice_.cells[0], width_},
                                                  *response_.mutable_result());
-  ISOFIELD_RETURN_IF_ERROR(fields_.evaluate_layers(scene_, lattice_, first, quantity_, out, cancelled_));
+  ISOFIELD_RETURN_IF_ERROR(fields_.evaluate_layers(scene_, lattice_, first, layout_, out, cancelled_));
   return send(writer_, response_);
 }
 
 absl::Status GridEvaluation::send_in_parts(std::uint32_t first, std::uint32_t layers) {
   several_.resize(layers * layer_ * width_);
   ISOFIELD_RETURN_IF_ERROR(
-      fields_.evaluate_layers(scene_, lattice_, first, quantity_, std::span(several_), cancelled_));
+      fields_.evaluate_layers(scene_, lattice_, first, layout_, std::span(several_), cancelled_));
   auto from = several_.begin();
   for (const GridPart& part : grid_parts({lattice_.cells[0], lattice_.cells[1], layers}, most_)) {
     response_.Clear();

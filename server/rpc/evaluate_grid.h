@@ -28,7 +28,7 @@ class GridEvaluation {
 
   // `most`: points that a message may hold.
   GridEvaluation(engine::FieldEvaluator& fields, const engine::ResidentScene& scene, const blobtree::Lattice& lattice,
-                 engine::Quantity quantity, std::uint64_t most, const Call& call, Writer& writer);
+                 engine::ResultLayout layout, std::uint64_t most, const Call& call, Writer& writer);
 
   // CANCELLED: the client is gone. Other errors are those of the evaluator.
   absl::Status run();
@@ -42,7 +42,7 @@ class GridEvaluation {
   engine::FieldEvaluator& fields_;
   const engine::ResidentScene& scene_;
   const blobtree::Lattice& lattice_;
-  const engine::Quantity quantity_;
+  const engine::ResultLayout layout_;
   const std::uint32_t width_;  // numbers of a point
   const std::uint64_t layer_;  // points of a layer
   const std::uint64_t most_;

@@ -140,7 +140,7 @@ class EvaluateStreams::Stream {
   void evaluate(Work& work) {
     engine::PointBatch batch = *batch_;
     absl::StatusOr<MessagePoints> points =
-        base::guarded([&] { return streams_.service_.points_of(work.request, batch.quantity); });
+        base::guarded([&] { return streams_.service_.points_of(work.request, batch.layout); });
     if (!points.ok()) return on_evaluated(work, points.status());
     work.points = *std::move(points);
     work.ticket = streams_.service_.batches().count(work.points.points.size());
@@ -151,7 +151,7 @@ class EvaluateStreams::Stream {
     if (work.points.result) {
       batch.out = work.points.shared_numbers();
     } else {
-      work.result.emplace(work.points.points.size(), engine::components(batch.quantity));
+      work.result.emplace(work.points.points.size(), batch.layout);
       batch.out = work.result->numbers();
     }
     streams_.service_.engine().submit(std::move(batch),
@@ -198,7 +198,7 @@ class EvaluateStreams::Stream {
 
   std::deque<grpc::ByteBuffer> answers_of(Work& work) const {
     if (!work.result) return {empty_result()};
-    return work.result->take_parts(limit_.rows(engine::components(batch_->quantity) * sizeof(float)));
+    return work.result->take_parts(limit_.rows(batch_->layout.bytes()));
   }
 
   // The same at the end of a part.

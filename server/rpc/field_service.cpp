@@ -37,14 +37,14 @@ absl::StatusOr<std::shared_ptr<FieldService::Evaluation>> FieldService::read(con
   auto evaluation = std::make_shared<Evaluation>();
   engine::PointBatch& batch = evaluation->batch;
   ISOFIELD_ASSIGN_OR_RETURN(batch, batch_of(context, request));
-  ISOFIELD_ASSIGN_OR_RETURN(evaluation->points, read_points(PointFields(request), batch.quantity, limits_, regions_));
-  const std::uint64_t rows = evaluation->points.points.size(), columns = components(batch.quantity);
+  ISOFIELD_ASSIGN_OR_RETURN(evaluation->points, read_points(PointFields(request), batch.layout, limits_, regions_));
+  const std::uint64_t rows = evaluation->points.points.size();
   batch.xyz = evaluation->points.points.xyz();
   if (CallNotes* const notes = log_.notes_of(context)) notes->add_work("points", rows);
   if (!evaluation->points.result) {
     ISOFIELD_RETURN_IF_ERROR(check_number_rows(request.answer_in_numbers(), rows));
     ISOFIELD_RETURN_IF_ERROR(AnswerLimit(request.max_answer_bytes())
-                                 .admit(ResultMessage::bytes(rows, columns, request.answer_in_numbers()),
+                                 .admit(ResultMessage::bytes(rows, batch.layout, request.answer_in_numbers()),
                                         "send the points by EvaluateStream, which answers any number of them"));
   }
   if (rows > 0) {
@@ -53,7 +53,7 @@ absl::StatusOr<std::shared_ptr<FieldService::Evaluation>> FieldService::read(con
   if (evaluation->points.result) {
     batch.out = evaluation->points.shared_numbers();
   } else {
-    evaluation->result.emplace(rows, columns);
+    evaluation->result.emplace(rows, batch.layout);
     batch.out = evaluation->result->numbers();
   }
   return evaluation;
@@ -79,20 +79,20 @@ absl::StatusOr<engine::PointBatch> FieldService::begin(const grpc::ServerContext
 }
 
 absl::StatusOr<MessagePoints> FieldService::points_of(const v1::EvaluateStreamRequest& request,
-                                                      engine::Quantity quantity) const {
-  return read_points(PointFields(request), quantity, limits_, regions_);
+                                                      const engine::ResultLayout& layout) const {
+  return read_points(PointFields(request), layout, limits_, regions_);
 }
 
 absl::Status FieldService::evaluate_grid(Call& call, const v1::EvaluateGridRequest& request,
                                          grpc::ServerWriter<v1::EvaluateGridResponse>& writer) {
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::Quantity quantity, read_quantity(request.quantity()));
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::ResultLayout layout, read_layout(request.quantity()));
   ISOFIELD_ASSIGN_OR_RETURN(const blobtree::Lattice lattice, read_lattice(request, limits_));
   ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const AnswerLimit limit, AnswerLimit::of_stream(request.max_answer_bytes()));
   ISOFIELD_RETURN_IF_ERROR(call.admit(points_of_lattice(lattice)));
   const std::uint64_t most =
-      std::min(limit.rows(engine::components(quantity) * sizeof(float)), limits_.max_points_per_message);
-  return GridEvaluation(engine_.fields(), *leased.scene, lattice, quantity, most, call, writer).run();
+      std::min(limit.rows(layout.bytes()), limits_.max_points_per_message);
+  return GridEvaluation(engine_.fields(), *leased.scene, lattice, layout, most, call, writer).run();
 }
 
 }  // namespace isofield::rpc

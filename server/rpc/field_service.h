@@ -39,7 +39,8 @@ class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
   // What the first message of a stream says of all; without points.
   absl::StatusOr<engine::PointBatch> begin(const grpc::ServerContext& context,
                                            const v1::EvaluateStreamRequest& first) const;
-  absl::StatusOr<MessagePoints> points_of(const v1::EvaluateStreamRequest& request, engine::Quantity quantity) const;
+  absl::StatusOr<MessagePoints> points_of(const v1::EvaluateStreamRequest& request,
+                                          const engine::ResultLayout& layout) const;
   engine::Engine& engine() { return engine_; }
   const Limits& limits() const { return limits_; }
   Admission& batches() { return batches_; }

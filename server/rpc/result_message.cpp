@@ -41,12 +41,14 @@ std::string message_head(std::uint64_t rows, std::uint64_t columns, bool in_numb
 
 }  // namespace
 
-ResultMessage::ResultMessage(std::uint64_t rows, std::uint64_t columns)
-    : rows_(rows), columns_(columns), numbers_(std::make_shared_for_overwrite<float[]>(rows * columns)) {}
+ResultMessage::ResultMessage(std::uint64_t rows, const engine::ResultLayout& layout)
+    : rows_(rows),
+      columns_(layout.numbers()),
+      numbers_(std::make_shared_for_overwrite<float[]>(layout.numbers(rows))) {}
 
-std::uint64_t ResultMessage::bytes(std::uint64_t rows, std::uint64_t columns, bool in_numbers) {
-  return message_head(rows, columns, in_numbers).size() +
-         rows * columns * (in_numbers ? sizeof(double) : sizeof(float));
+std::uint64_t ResultMessage::bytes(std::uint64_t rows, const engine::ResultLayout& layout, bool in_numbers) {
+  return message_head(rows, layout.numbers(), in_numbers).size() +
+         layout.numbers(rows) * (in_numbers ? sizeof(double) : sizeof(float));
 }
 
 grpc::ByteBuffer ResultMessage::take(bool in_numbers) {

@@ -8,17 +8,19 @@
 #include <memory>
 #include <span>
 
+#include "engine/points/result_layout.h"
+
 namespace isofield::rpc {
 
 // Results are written once, into what gRPC sends: a message of protobuf's would fill its bytes with zeros before and
 // copy them after.
 class ResultMessage {
  public:
-  // `result` of shape [rows, columns], undefined as yet.
-  ResultMessage(std::uint64_t rows, std::uint64_t columns);
+  // `result` has a row of the layout a point, undefined as yet.
+  ResultMessage(std::uint64_t rows, const engine::ResultLayout& layout);
 
   // The size in bytes of the message with all rows.
-  static std::uint64_t bytes(std::uint64_t rows, std::uint64_t columns, bool in_numbers);
+  static std::uint64_t bytes(std::uint64_t rows, const engine::ResultLayout& layout, bool in_numbers);
 
   std::span<float> numbers() { return {numbers_.get(), rows_ * columns_}; }
   // The message with all rows. It takes over the numbers, so that it can be asked for only once.

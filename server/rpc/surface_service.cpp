@@ -176,7 +176,7 @@ absl::Status SurfaceService::contains(Call& call, const v1::ContainsRequest& req
   ISOFIELD_ASSIGN_OR_RETURN(level.iso, read_iso(request, level.law));
   ISOFIELD_RETURN_IF_ERROR(call.admit(points.size()));
   std::vector<float> values(points.size());
-  ISOFIELD_RETURN_IF_ERROR(engine_.fields().evaluate(*leased.scene, points.xyz(), engine::Quantity::kValue, values,
+  ISOFIELD_RETURN_IF_ERROR(engine_.fields().evaluate(*leased.scene, points.xyz(), engine::ResultLayout::kValue, values,
                                                      call.cancelled()));
   std::vector<std::uint8_t> inside(values.size());
   std::transform(values.begin(), values.end(), inside.begin(), [&](float f) { return level.excess(f) > 0 ? 1 : 0; });

@@ -48,9 +48,12 @@ absl::StatusOr<Sample> sample(const FoundScene& found, const std::string& node, 
   ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease scene, engine.make_resident(rooted, found.operators->table));
   const std::array<float, 3> xyz{static_cast<float>(point.x), static_cast<float>(point.y),
                                  static_cast<float>(point.z)};
-  std::array<float, 4> out{};
-  ISOFIELD_RETURN_IF_ERROR(engine.fields().evaluate(*scene, xyz, engine::Quantity::kValueAndGradient, out));
-  return Sample{scene->tape().law, out[0], {out[1], out[2], out[3]}};
+  constexpr engine::ResultLayout kLayout = engine::ResultLayout::kValueAndGradient;
+  std::array<float, kLayout.numbers()> out{};
+  ISOFIELD_RETURN_IF_ERROR(engine.fields().evaluate(*scene, xyz, kLayout, out));
+  const engine::ResultRows row(kLayout, out);
+  const auto [gx, gy, gz] = row.gradient(0);
+  return Sample{scene->tape().law, row.value(0), {gx, gy, gz}};
 }
 
 // Radians; 0 where one of them vanishes.

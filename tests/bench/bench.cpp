@@ -15,7 +15,7 @@
 namespace isofield {
 namespace {
 
-using engine::Quantity;
+using engine::ResultLayout;
 
 std::unique_ptr<engine::Engine> make_engine(const engine::TierTwoOptions& tier_two) {
   auto created = engine::Engine::create({}, {}, {}, tier_two);
@@ -154,16 +154,16 @@ void count_points(benchmark::State& state, std::size_t count) {
       static_cast<double>(count * static_cast<std::size_t>(state.iterations())), benchmark::Counter::kIsRate);
 }
 
-void points(benchmark::State& state, const v1::Scene& scene, Quantity quantity, std::size_t count = 1 << 20,
+void points(benchmark::State& state, const v1::Scene& scene, ResultLayout layout, std::size_t count = 1 << 20,
             engine::Engine& engine = the_engine()) {
   const engine::SceneLease lease = resident(scene, engine);
   const std::vector<float> xyz = random_points(count);
-  std::vector<float> out(xyz.size() / 3 * components(quantity));
+  std::vector<float> out(xyz.size() / 3 * layout.numbers());
   // A kernel of its own, if it gets one, is compiled before the clock runs.
-  (void)engine.fields().evaluate(*lease, xyz, quantity, out);
+  (void)engine.fields().evaluate(*lease, xyz, layout, out);
   engine.written_kernels().wait();
   for (auto _ : state) {
-    const absl::Status s = engine.fields().evaluate(*lease, xyz, quantity, out);
+    const absl::Status s = engine.fields().evaluate(*lease, xyz, layout, out);
     if (!s.ok()) return state.SkipWithError(std::string(s.message()).c_str());
   }
   count_points(state, count);
@@ -212,24 +212,26 @@ void register_all() {
       add("mesh/" + spheres + name + "/128 cells",
           [count, join = join](benchmark::State& s) { mesh(s, soft_spheres(count, join), 3.0 / 128); });
       add("points/" + spheres + name + "/value and gradient", [count, join = join](benchmark::State& s) {
-        points(s, soft_spheres(count, join), Quantity::kValueAndGradient);
+        points(s, soft_spheres(count, join), ResultLayout::kValueAndGradient);
       });
       if (count > 64) continue;
       add("points/" + spheres + name + "/value and gradient, interpreted", [count, join = join](benchmark::State& s) {
-        points(s, soft_spheres(count, join), Quantity::kValueAndGradient, 1 << 20, interpreting_engine());
+        points(s, soft_spheres(count, join), ResultLayout::kValueAndGradient, 1 << 20, interpreting_engine());
       });
       if (count > 8) continue;
       add("points/" + spheres + name + "/value and gradient, bare kernel",
           [count, join = join](benchmark::State& s) { bare_kernel(s, soft_spheres(count, join)); });
     }
     add("points/" + spheres + " sum/value and gradient, 64 points",
-        [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), Quantity::kValueAndGradient, 64); });
+        [count](benchmark::State& s) {
+          points(s, soft_spheres(count, Join::kSum), ResultLayout::kValueAndGradient, 64);
+        });
     add("track/" + spheres + " sum/one moved by a cell/128 cells",
         [count](benchmark::State& s) { track(s, soft_spheres(count, Join::kSum), 3.0 / 128); });
     add("mesh/" + spheres + " sum/128 cells/seen before",
         [count](benchmark::State& s) { mesh_again(s, soft_spheres(count, Join::kSum), 3.0 / 128); });
     add("points/" + spheres + " sum/value",
-        [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), Quantity::kValue); });
+        [count](benchmark::State& s) { points(s, soft_spheres(count, Join::kSum), ResultLayout::kValue); });
   }
 }
 

@@ -8,17 +8,17 @@ namespace isofield::gpu_test {
 namespace {
 
 using blobtree::dvec3;
-using engine::Quantity;
+using engine::ResultLayout;
 
-std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<dvec3>& points, Quantity quantity) {
+std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<dvec3>& points, ResultLayout layout) {
   static engine::FieldEvaluator evaluator(device(), kernels(), workers());
   std::vector<float> xyz;
   xyz.reserve(3 * points.size());
   for (const dvec3& p : points) {
     xyz.insert(xyz.end(), {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
   }
-  std::vector<float> out(points.size() * components(quantity));
-  const absl::Status status = evaluator.evaluate(scene, xyz, quantity, out);
+  std::vector<float> out(points.size() * layout.numbers());
+  const absl::Status status = evaluator.evaluate(scene, xyz, layout, out);
   EXPECT_TRUE(status.ok()) << status;
   return out;
 }
@@ -26,12 +26,12 @@ std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vecto
 }  // namespace
 
 std::vector<double> DeviceField::values(const std::vector<dvec3>& points) const {
-  const std::vector<float> out = evaluate(*scene_, points, Quantity::kValue);
+  const std::vector<float> out = evaluate(*scene_, points, ResultLayout::kValue);
   return {out.begin(), out.end()};
 }
 
 std::vector<reference::Sample> DeviceField::samples(const std::vector<dvec3>& points) const {
-  const std::vector<float> out = evaluate(*scene_, points, Quantity::kValueAndGradient);
+  const std::vector<float> out = evaluate(*scene_, points, ResultLayout::kValueAndGradient);
   std::vector<reference::Sample> samples;
   for (std::size_t i = 0; i < out.size(); i += 4) samples.push_back({out[i], {out[i + 1], out[i + 2], out[i + 3]}});
   return samples;

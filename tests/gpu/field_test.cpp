@@ -19,7 +19,7 @@ namespace isofield::gpu_test {
 namespace {
 
 using blobtree::dvec3;
-using engine::Quantity;
+using engine::ResultLayout;
 
 engine::FieldEvaluator& fields() {
   static engine::FieldEvaluator evaluator(device(), kernels(), workers());
@@ -33,9 +33,9 @@ std::vector<float> random_points(std::uint64_t seed, int count, double reach = 2
   return xyz;
 }
 
-std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<float>& xyz, Quantity quantity) {
-  std::vector<float> out(xyz.size() / 3 * components(quantity), -1);
-  const absl::Status status = fields().evaluate(scene, xyz, quantity, out);
+std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<float>& xyz, ResultLayout layout) {
+  std::vector<float> out(xyz.size() / 3 * layout.numbers(), -1);
+  const absl::Status status = fields().evaluate(scene, xyz, layout, out);
   EXPECT_TRUE(status.ok()) << status;
   return out;
 }
@@ -51,8 +51,8 @@ TEST(FieldOnDevice, AgreesWithTheReferenceOnRandomScenes) {
       const engine::SceneLease scene = resident(message);
       const reference::Evaluator exact(test_support::read_or_die(message));
       const std::vector<float> xyz = random_points(seed + 17, 400);
-      const std::vector<float> values = evaluate(*scene, xyz, Quantity::kValue);
-      const std::vector<float> both = evaluate(*scene, xyz, Quantity::kValueAndGradient);
+      const std::vector<float> values = evaluate(*scene, xyz, ResultLayout::kValue);
+      const std::vector<float> both = evaluate(*scene, xyz, ResultLayout::kValueAndGradient);
       for (std::size_t i = 0; i < values.size(); ++i) {
         const dvec3 p{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
         const reference::Sample s = exact.evaluate(p);
@@ -96,8 +96,8 @@ TEST(FieldOnDevice, AgreesWithTheReferenceOnEveryPrimitive) {
   const engine::SceneLease scene = resident(message);
   const reference::Evaluator exact(test_support::read_or_die(message));
   const std::vector<float> xyz = random_points(41, 3000, 1.5);
-  const std::vector<float> values = evaluate(*scene, xyz, Quantity::kValue);
-  const std::vector<float> both = evaluate(*scene, xyz, Quantity::kValueAndGradient);
+  const std::vector<float> values = evaluate(*scene, xyz, ResultLayout::kValue);
+  const std::vector<float> both = evaluate(*scene, xyz, ResultLayout::kValueAndGradient);
   double worst_value = 0, worst_gradient = 0;
   int smooth = 0, alive = 0;
   for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
@@ -122,11 +122,11 @@ TEST(FieldOnDevice, AgreesWithTheReferenceOnEveryPrimitive) {
 TEST(FieldOnDevice, GivesTheSameBitsWhateverTheBatch) {
   const engine::SceneLease scene = resident(test_support::random_scene(5, {.nodes = 120}));
   const std::vector<float> xyz = random_points(3, 5000);
-  const std::vector<float> all = evaluate(*scene, xyz, Quantity::kValueAndGradient);
+  const std::vector<float> all = evaluate(*scene, xyz, ResultLayout::kValueAndGradient);
   for (const std::size_t first : {0u, 1u, 777u, 4990u}) {
     const std::size_t count = std::min<std::size_t>(10, 5000 - first);
     const std::vector<float> part(xyz.begin() + 3 * first, xyz.begin() + 3 * (first + count));
-    const std::vector<float> some = evaluate(*scene, part, Quantity::kValueAndGradient);
+    const std::vector<float> some = evaluate(*scene, part, ResultLayout::kValueAndGradient);
     EXPECT_EQ(std::memcmp(some.data(), all.data() + 4 * first, some.size() * sizeof(float)), 0);
   }
 }
@@ -144,13 +144,13 @@ TEST(FieldOnDevice, GivesTheSameBitsOnALatticeAsAtItsPoints) {
       }
     }
   }
-  for (const Quantity quantity : {Quantity::kValue, Quantity::kValueAndGradient}) {
-    const std::vector<float> points = evaluate(*scene, xyz, quantity);
+  for (const ResultLayout layout : {ResultLayout::kValue, ResultLayout::kValueAndGradient}) {
+    const std::vector<float> points = evaluate(*scene, xyz, layout);
     std::vector<float> grid(points.size(), -1);
-    const std::size_t layer = 27 * 30 * components(quantity);
-    const absl::Status low = fields().evaluate_layers(*scene, lattice, 0, quantity, std::span(grid).first(8 * layer));
+    const std::size_t layer = 27 * 30 * layout.numbers();
+    const absl::Status low = fields().evaluate_layers(*scene, lattice, 0, layout, std::span(grid).first(8 * layer));
     const absl::Status high =
-        fields().evaluate_layers(*scene, lattice, 8, quantity, std::span(grid).subspan(8 * layer));
+        fields().evaluate_layers(*scene, lattice, 8, layout, std::span(grid).subspan(8 * layer));
     ASSERT_TRUE(low.ok() && high.ok());
     EXPECT_EQ(std::memcmp(grid.data(), points.data(), grid.size() * sizeof(float)), 0);
   }
@@ -165,7 +165,7 @@ TEST(FieldOnDevice, IsFiniteEverywhere) {
       for (const float z : values) xyz.insert(xyz.end(), {x, y, z});
     }
   }
-  for (const float v : evaluate(*scene, xyz, Quantity::kValueAndGradient)) ASSERT_TRUE(std::isfinite(v));
+  for (const float v : evaluate(*scene, xyz, ResultLayout::kValueAndGradient)) ASSERT_TRUE(std::isfinite(v));
 }
 
 TEST(FieldOnDevice, IsFiniteForDegenerateBlends) {
@@ -183,7 +183,7 @@ TEST(FieldOnDevice, IsFiniteForDegenerateBlends) {
       std::vector<float> xyz = random_points(2, 2000, 1.5);
       for (int i = 0; i < 300; ++i) xyz[3 * i + 1] = xyz[3 * i + 2] = 0;  // on the axes
       xyz[0] = xyz[1] = xyz[2] = 0;
-      for (const float v : evaluate(*scene, xyz, Quantity::kValueAndGradient)) ASSERT_TRUE(std::isfinite(v));
+      for (const float v : evaluate(*scene, xyz, ResultLayout::kValueAndGradient)) ASSERT_TRUE(std::isfinite(v));
     }
   }
 }
@@ -202,7 +202,7 @@ TEST(FieldOnDevice, BlendsThroughVolumesAsTheReferenceDoes) {
   const engine::SceneLease lease = resident(scene);
   EXPECT_EQ(lease->device_bytes() - lease->own_bytes(), 16u * (16 * 16 * 16 + 32 * 32 * 32));
   const std::vector<float> xyz = random_points(77, 400, 1.0);
-  const std::vector<float> results = evaluate(*lease, xyz, Quantity::kValueAndGradient);
+  const std::vector<float> results = evaluate(*lease, xyz, ResultLayout::kValueAndGradient);
   int compared = 0;
   for (std::size_t i = 0; i < 400; ++i) {
     const blobtree::dvec3 p{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
@@ -237,9 +237,9 @@ TEST(FieldOnDevice, EditedOpeningsShareTheLeaves) {
   EXPECT_TRUE((*after)->shares_leaves_with(*before));
   // The same bits as the edited scene made from nothing.
   const std::vector<float> xyz = random_points(31, 2000, 1.5);
-  const std::vector<float> edited = evaluate(**after, xyz, Quantity::kValueAndGradient);
-  EXPECT_EQ(edited, evaluate(*resident(scene), xyz, Quantity::kValueAndGradient));
-  EXPECT_NE(edited, evaluate(*before, xyz, Quantity::kValueAndGradient));
+  const std::vector<float> edited = evaluate(**after, xyz, ResultLayout::kValueAndGradient);
+  EXPECT_EQ(edited, evaluate(*resident(scene), xyz, ResultLayout::kValueAndGradient));
+  EXPECT_NE(edited, evaluate(*before, xyz, ResultLayout::kValueAndGradient));
   // What is more than a profile is compiled; what is refused is refused.
   const auto moved = blobtree::apply_edits({{"a", "radius", {0.4}}}, scene);
   EXPECT_FALSE(blobtree::edit_blends((*after)->tape(), scene, *moved, {})->has_value());
@@ -264,7 +264,7 @@ TEST(FieldOnDevice, IsZeroWhereNothingIs) {
       for (std::size_t i = near == 0 ? 300 : 0; i < xyz.size(); ++i) xyz[i] += 5;
       std::vector<float> out(300'000, 7);
       for (int batch = 0; batch < 3; ++batch) {
-        ASSERT_TRUE(fresh.evaluate(*lease, xyz, Quantity::kValue, out).ok());
+        ASSERT_TRUE(fresh.evaluate(*lease, xyz, ResultLayout::kValue, out).ok());
         EXPECT_EQ(std::count_if(out.begin() + 100, out.end(), [](float f) { return f != 0; }), 0);
         EXPECT_EQ(std::count_if(out.begin(), out.begin() + 100, [](float f) { return f != 0; }) > 0, near == 0);
       }
@@ -293,7 +293,7 @@ TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
     std::vector<float> first(4 * 150'000), out(first.size());
     for (int batch = 0; batch < 6; ++batch) {
       std::vector<float>& to = batch == 0 ? first : out;
-      const absl::Status s = fresh.evaluate(*lease, xyz, Quantity::kValueAndGradient, to);
+      const absl::Status s = fresh.evaluate(*lease, xyz, ResultLayout::kValueAndGradient, to);
       ASSERT_TRUE(s.ok()) << s;
       if (batch == 0) continue;
       ASSERT_EQ(std::memcmp(first.data(), out.data(), sizeof(float) * out.size()), 0) << "batch " << batch;
@@ -301,7 +301,7 @@ TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
     // Smaller ones find it, too, or had better not.
     for (const std::size_t count : {7u, 3000u, 40'000u}) {
       std::vector<float> some(4 * count);
-      ASSERT_TRUE(fresh.evaluate(*lease, std::span(xyz).first(3 * count), Quantity::kValueAndGradient, some).ok());
+      ASSERT_TRUE(fresh.evaluate(*lease, std::span(xyz).first(3 * count), ResultLayout::kValueAndGradient, some).ok());
       EXPECT_EQ(std::memcmp(first.data(), some.data(), sizeof(float) * some.size()), 0) << count;
     }
   }
@@ -317,7 +317,7 @@ TEST(FieldOnDevice, AsksForNoTurnBesideTheOneItWasGiven) {
     std::vector<float> out(4 * count);
     for (int batch = 0; batch < 40; ++batch) {  // until an index would be worth its while
       gpu::Turns::Turn turn = device().turns().take({});
-      ASSERT_TRUE(fresh.evaluate(*lease, xyz, Quantity::kValueAndGradient, out, {}, {{}, std::move(turn)}).ok());
+      ASSERT_TRUE(fresh.evaluate(*lease, xyz, ResultLayout::kValueAndGradient, out, {}, {{}, std::move(turn)}).ok());
     }
   }
 }
@@ -337,17 +337,17 @@ TEST(FieldOnDevice, ALargeBatchIsCutAndCanBeCancelled) {
   const std::vector<float> xyz = random_points(5, 40'000, 1);
   std::vector<float> whole(40'000), out(40'000);
   int asked = 0;
-  const absl::Status all = fields().evaluate(*lease, xyz, Quantity::kValue, whole, [&] { return ++asked < 0; });
+  const absl::Status all = fields().evaluate(*lease, xyz, ResultLayout::kValue, whole, [&] { return ++asked < 0; });
   ASSERT_TRUE(all.ok()) << all;
   EXPECT_GE(asked, 4);
   // The same bits as in small batches.
   for (const std::size_t first : {0u, 20'000u, 39'990u}) {
     const std::vector<float> some(xyz.begin() + 3 * first, xyz.begin() + 3 * (first + 10));
-    const std::vector<float> part = evaluate(*lease, some, Quantity::kValue);
+    const std::vector<float> part = evaluate(*lease, some, ResultLayout::kValue);
     EXPECT_EQ(std::memcmp(part.data(), &whole[first], 10 * sizeof(float)), 0);
   }
   asked = 0;
-  const absl::Status cut = fields().evaluate(*lease, xyz, Quantity::kValue, out, [&] { return ++asked == 2; });
+  const absl::Status cut = fields().evaluate(*lease, xyz, ResultLayout::kValue, out, [&] { return ++asked == 2; });
   EXPECT_EQ(cut.code(), absl::StatusCode::kCancelled);
   EXPECT_EQ(asked, 2);
 }
@@ -374,7 +374,7 @@ TEST(FieldOnDevice, TakesDeepTrees) {
     }
     const reference::Evaluator exact(test_support::read_or_die(scene));
     const std::vector<float> xyz = random_points(9, 200, 2);
-    const std::vector<float> values = evaluate(*resident(scene), xyz, Quantity::kValue);
+    const std::vector<float> values = evaluate(*resident(scene), xyz, ResultLayout::kValue);
     for (std::size_t i = 0; i < values.size(); ++i) {
       ASSERT_NEAR(values[i], exact.value({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]}), 2e-5);
     }

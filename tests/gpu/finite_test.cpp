@@ -317,7 +317,7 @@ TEST(Finite, ScenesAreAtTheEndsOfTheirParametersAndPoints) {
         const engine::SceneLease lease = resident(message);
         const std::vector<float> points = extreme_points(message, kPoints, extreme.random());
         std::vector<float> out(kPoints * 4);
-        const absl::Status status = evaluator.evaluate(*lease, points, engine::Quantity::kValueAndGradient, out);
+        const absl::Status status = evaluator.evaluate(*lease, points, engine::ResultLayout::kValueAndGradient, out);
         ASSERT_TRUE(status.ok()) << status << text;
         pairs += kPoints;
         for (std::size_t i = 0; i < out.size(); i += 4) {

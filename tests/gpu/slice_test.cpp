@@ -30,7 +30,7 @@ TEST(Slicer, GivesTheSameBitsAsTheLattice) {
   // Exact in float32.
   const blobtree::Lattice lattice{{-2.125, -1.875, 0.25}, {0.15625, 0.140625, 1}, {27, 30, 1}};
   std::vector<float> grid(27 * 30);
-  ASSERT_TRUE(fields().evaluate_layers(*scene, lattice, 0, engine::Quantity::kValue, grid).ok());
+  ASSERT_TRUE(fields().evaluate_layers(*scene, lattice, 0, engine::ResultLayout::kValue, grid).ok());
   const engine::Plane plane{{-2.125, -1.875, 0.25}, {1, 0, 0}, {0, 1, 0}, {0.15625, 0.140625}, {27, 30}};
   const auto slice = engine::slice(fields(), *scene, plane, {});
   ASSERT_TRUE(slice.ok()) << slice.status();

@@ -22,7 +22,7 @@
 namespace isofield::gpu_test {
 namespace {
 
-using engine::Quantity;
+using engine::ResultLayout;
 using engine::WrittenKernels;
 
 std::vector<float> random_points(std::uint64_t seed, int count) {
@@ -32,11 +32,11 @@ std::vector<float> random_points(std::uint64_t seed, int count) {
   return xyz;
 }
 
-std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<float>& xyz, Quantity quantity,
+std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vector<float>& xyz, ResultLayout layout,
                             WrittenKernels* written) {
   engine::FieldEvaluator fields(device(), kernels(), workers(), written);
-  std::vector<float> out(xyz.size() / 3 * components(quantity), -1);
-  const absl::Status status = fields.evaluate(scene, xyz, quantity, out);
+  std::vector<float> out(xyz.size() / 3 * layout.numbers(), -1);
+  const absl::Status status = fields.evaluate(scene, xyz, layout, out);
   EXPECT_TRUE(status.ok()) << status;
   return out;
 }
@@ -85,11 +85,11 @@ TEST(WrittenKernels, AgreeWithTheInterpreterOnRandomScenes) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
       const engine::SceneLease scene = resident(test_support::random_scene(7000 * nodes + seed, {.nodes = nodes}));
       const std::vector<float> xyz = random_points(seed, 500);
-      for (const Quantity quantity : {Quantity::kValue, Quantity::kValueAndGradient}) {
-        if (!make_hot(written, *scene, quantity == Quantity::kValueAndGradient)) continue;
+      for (const ResultLayout layout : {ResultLayout::kValue, ResultLayout::kValueAndGradient}) {
+        if (!make_hot(written, *scene, layout == ResultLayout::kValueAndGradient)) continue;
         ++made;
-        expect_near(evaluate(*scene, xyz, quantity, &written), evaluate(*scene, xyz, quantity, nullptr),
-                    components(quantity), absl::StrCat(nodes, " nodes, seed ", seed));
+        expect_near(evaluate(*scene, xyz, layout, &written), evaluate(*scene, xyz, layout, nullptr),
+                    layout.numbers(), absl::StrCat(nodes, " nodes, seed ", seed));
       }
     }
   }
@@ -113,8 +113,8 @@ TEST(WrittenKernels, AgreeWithTheInterpreterOnEveryOperator) {
     const engine::SceneLease scene =
         resident(test_support::scene_of_nodes(absl::StrCat(nodes, operator_node(c.op, names), "]")));
     ASSERT_TRUE(make_hot(written, *scene)) << c.name;
-    expect_near(evaluate(*scene, xyz, Quantity::kValueAndGradient, &written),
-                evaluate(*scene, xyz, Quantity::kValueAndGradient, nullptr), 4, c.name);
+    expect_near(evaluate(*scene, xyz, ResultLayout::kValueAndGradient, &written),
+                evaluate(*scene, xyz, ResultLayout::kValueAndGradient, nullptr), 4, c.name);
   }
 }
 
@@ -128,7 +128,7 @@ TEST(WrittenKernels, AreOfStructuresThatManyPointsAreAskedOf) {
   (void)written.find(*scene, true, 1);
   written.wait();
   EXPECT_NE(written.find(*scene, true, 0), nullptr);
-  // The other quantity is another kernel.
+  // The other layout is another kernel.
   EXPECT_EQ(written.find(*scene, false, 0), nullptr);
 }
 
@@ -138,9 +138,9 @@ TEST(WrittenKernels, AreSharedByScenesWithOtherParameters) {
   ASSERT_TRUE(make_hot(written, *one));
   EXPECT_EQ(written.find(*other, true, 0), written.find(*one, true, 0));
   const std::vector<float> xyz = random_points(4, 500);
-  const std::vector<float> values = evaluate(*other, xyz, Quantity::kValueAndGradient, &written);
-  expect_near(values, evaluate(*other, xyz, Quantity::kValueAndGradient, nullptr), 4, "other parameters");
-  EXPECT_NE(values, evaluate(*one, xyz, Quantity::kValueAndGradient, &written));
+  const std::vector<float> values = evaluate(*other, xyz, ResultLayout::kValueAndGradient, &written);
+  expect_near(values, evaluate(*other, xyz, ResultLayout::kValueAndGradient, nullptr), 4, "other parameters");
+  EXPECT_NE(values, evaluate(*one, xyz, ResultLayout::kValueAndGradient, &written));
 }
 
 TEST(WrittenKernels, OutliveEditsOfParameters) {
@@ -156,8 +156,8 @@ TEST(WrittenKernels, OutliveEditsOfParameters) {
   ASSERT_TRUE(after.ok()) << after.status();
   EXPECT_EQ(written.find(**after, true, 0), written.find(*before, true, 0));
   const std::vector<float> xyz = random_points(6, 500);
-  expect_near(evaluate(**after, xyz, Quantity::kValueAndGradient, &written),
-              evaluate(**after, xyz, Quantity::kValueAndGradient, nullptr), 4, "edited");
+  expect_near(evaluate(**after, xyz, ResultLayout::kValueAndGradient, &written),
+              evaluate(**after, xyz, ResultLayout::kValueAndGradient, nullptr), 4, "edited");
 }
 
 // More than one submission, and a last one that is no whole number of workgroups.
@@ -167,12 +167,13 @@ TEST(WrittenKernels, TakeLargeBatches) {
   ASSERT_TRUE(make_hot(written, *scene));
   constexpr int kCount = 600'003;  // three submissions
   const std::vector<float> xyz = random_points(8, kCount);
-  expect_near(evaluate(*scene, xyz, Quantity::kValueAndGradient, &written),
-              evaluate(*scene, xyz, Quantity::kValueAndGradient, nullptr), 4, "large");
+  expect_near(evaluate(*scene, xyz, ResultLayout::kValueAndGradient, &written),
+              evaluate(*scene, xyz, ResultLayout::kValueAndGradient, nullptr), 4, "large");
   engine::FieldEvaluator fields(device(), kernels(), workers(), &written);
   std::vector<float> out(4 * std::size_t{kCount});
   int asked = 0;
-  const absl::Status cut = fields.evaluate(*scene, xyz, Quantity::kValueAndGradient, out, [&] { return ++asked == 3; });
+  const absl::Status cut =
+      fields.evaluate(*scene, xyz, ResultLayout::kValueAndGradient, out, [&] { return ++asked == 3; });
   EXPECT_EQ(cut.code(), absl::StatusCode::kCancelled);
 }
 
@@ -183,14 +184,14 @@ TEST(WrittenKernels, ReadAndWriteWhereverTheArraysLie) {
   constexpr std::size_t kCount = 50'001, kRoom = 8;
   const std::vector<float> xyz = random_points(5, kCount);
   for (WrittenKernels* const kernels_or_none : {&written, static_cast<WrittenKernels*>(nullptr)}) {
-    const std::vector<float> expected = evaluate(*scene, xyz, Quantity::kValueAndGradient, kernels_or_none);
+    const std::vector<float> expected = evaluate(*scene, xyz, ResultLayout::kValueAndGradient, kernels_or_none);
     EXPECT_EQ(std::count(expected.begin(), expected.end(), -1), 0) << "not written";
     engine::FieldEvaluator fields(device(), kernels(), workers(), kernels_or_none);
     // Of floats into arrays that lie at multiples of 16 bytes.
     for (const auto& [in, out] : {std::pair{0, 0}, {4, 4}, {1, 4}, {4, 3}, {2, 1}}) {
       std::vector<float> points(in), results(4 * kCount + 2 * kRoom, -7);
       points.insert(points.end(), xyz.begin(), xyz.end());
-      const absl::Status s = fields.evaluate(*scene, std::span(points).subspan(in), Quantity::kValueAndGradient,
+      const absl::Status s = fields.evaluate(*scene, std::span(points).subspan(in), ResultLayout::kValueAndGradient,
                                              std::span(results).subspan(out, 4 * kCount));
       ASSERT_TRUE(s.ok()) << s;
       EXPECT_TRUE(std::equal(expected.begin(), expected.end(), results.begin() + out)) << in << ", " << out;
@@ -211,11 +212,11 @@ TEST(WrittenKernels, AreKeptOnDisk) {
   const test_support::TemporaryFolder folder;
   const engine::SceneLease scene = resident(two_spheres(0.5));
   const std::vector<float> xyz = random_points(5, 200);
-  const std::vector<float> expected = evaluate(*scene, xyz, Quantity::kValueAndGradient, nullptr);
+  const std::vector<float> expected = evaluate(*scene, xyz, ResultLayout::kValueAndGradient, nullptr);
   const auto from_disk = [&] {
     WrittenKernels written(device(), {.folder = folder.path()});
     EXPECT_TRUE(make_hot(written, *scene));
-    expect_near(evaluate(*scene, xyz, Quantity::kValueAndGradient, &written), expected, 4, "kept");
+    expect_near(evaluate(*scene, xyz, ResultLayout::kValueAndGradient, &written), expected, 4, "kept");
     return written.counts().from_disk;
   };
   EXPECT_EQ(from_disk(), 0u);

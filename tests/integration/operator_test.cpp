@@ -59,7 +59,7 @@ TEST_F(Operator, ListsBuiltInOnesThenCustomOnesByName) {
   }
   EXPECT_EQ(built_in,
             "sum max min difference ricci gradient clean barthe bernhardt r_union pasko superelliptic functional bt2 "
-            "btk sampled ");
+            "btk smooth_min sampled ");
   EXPECT_EQ(custom, "C a b ");
   v1::GetOperatorResponse got;
   ASSERT_TRUE(ok(get("gradient", &got)));

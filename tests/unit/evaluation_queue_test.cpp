@@ -26,7 +26,7 @@ class Queue : public testing::Test {
   struct Submission {
     const ResidentScene* scene;
     std::vector<float> xyz;
-    Quantity quantity;
+    ResultLayout layout;
     gpu::Urgency urgency;
   };
   struct Request {
@@ -40,21 +40,21 @@ class Queue : public testing::Test {
       : held_(turns_.take({})),
         queue_(
             turns_, kProfile,
-            [this](const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
+            [this](const ResidentScene& scene, std::span<const float> xyz, ResultLayout layout, std::span<float> out,
                    const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
-              return run(scene, xyz, quantity, out, cancelled, std::move(submission));
+              return run(scene, xyz, layout, out, cancelled, std::move(submission));
             },
             options, [this] { return now_; }) {}
   ~Queue() override { release(); }
 
-  absl::Status run(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity, std::span<float> out,
+  absl::Status run(const ResidentScene& scene, std::span<const float> xyz, ResultLayout layout, std::span<float> out,
                    const FieldEvaluator::Cancelled& cancelled, FieldEvaluator::Submission submission) {
     if (!submission.turn) submission.turn = turns_.take(submission.urgency);
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
     if (has_no_memory_) throw std::bad_alloc();
-    submissions_.push_back({&scene, {xyz.begin(), xyz.end()}, quantity, submission.urgency});
+    submissions_.push_back({&scene, {xyz.begin(), xyz.end()}, layout, submission.urgency});
     for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
-      out[i * components(quantity)] = xyz[3 * i] + xyz[3 * i + 1] + xyz[3 * i + 2];
+      out[i * layout.numbers()] = xyz[3 * i] + xyz[3 * i + 1] + xyz[3 * i + 2];
     }
     return outcome_;
   }
@@ -63,7 +63,7 @@ class Queue : public testing::Test {
   Request& request(float value, std::size_t points = 1, PointBatch batch = {}) {
     Request& r = *requests_.emplace_back(std::make_unique<Request>());
     for (std::size_t i = 0; i < points; ++i) r.xyz.insert(r.xyz.end(), {value, 0, 0});
-    r.out.resize(points * components(batch.quantity));
+    r.out.resize(points * batch.layout.numbers());
     if (!batch.scene) batch.scene = scene_number(1);
     r.batch = std::move(batch);
     r.batch.xyz = r.xyz;
@@ -130,7 +130,7 @@ TEST_F(Queue, WhatWaitsGoesTogetherAndEachGetsItsOwn) {
 TEST_F(Queue, OtherScenesAndQuantitiesGoApart) {
   wait_with(request(1));
   wait_with(request(2, 1, {.scene = scene_number(2)}));
-  wait_with(request(3, 1, {.quantity = Quantity::kValueAndGradient}));
+  wait_with(request(3, 1, {.layout = ResultLayout::kValueAndGradient}));
   wait_with(request(4));
   release();
   ASSERT_EQ(submissions_.size(), 3u);
@@ -138,7 +138,7 @@ TEST_F(Queue, OtherScenesAndQuantitiesGoApart) {
   EXPECT_EQ(values(1), Values{2});
   EXPECT_EQ(values(2), Values{3});
   EXPECT_EQ(submissions_[1].scene, scene_number(2).get());
-  EXPECT_EQ(submissions_[2].quantity, Quantity::kValueAndGradient);
+  EXPECT_EQ(submissions_[2].layout, ResultLayout::kValueAndGradient);
   EXPECT_EQ(requests_[2]->out.size(), 4u);
 }
 
@@ -221,7 +221,7 @@ TEST_F(Queue, AFailureIsThatOfAllThatWentTogether) {
 TEST_F(Queue, ExceptionsAreAnsweredAndEndNothing) {
   wait_with(request(1));
   wait_with(request(2));
-  wait_with(request(3, EvaluationQueue::kSmallPoints + 1));
+  wait_with(request(3, kProfile.small_points + 1));
   has_no_memory_ = true;
   release();
   for (const auto& r : requests_) EXPECT_EQ(r->status.code(), absl::StatusCode::kResourceExhausted);

@@ -153,7 +153,7 @@ EvaluationQueue::Batches EvaluationQueue::take_next() {
   std::size_t points = 0;
   for (std::unique_ptr<Waiting>* w : order) {
     const PointBatch& batch = (*w)->batch;
-    if (batch.scene != first.scene || batch.quantity != first.quantity) continue;
+    if (batch.scene != first.scene || batch.layout != first.layout) continue;
     if (!joined.empty() && points + points_of(batch) > profile_.joined_points) break;
     points += points_of(batch);
     joined.push_back(std::move(*w));
@@ -169,7 +169,7 @@ absl::Status EvaluationQueue::run_joined(const std::vector<Waiting*>& joined, gp
   if (joined.size() == 1) return run(first, first.xyz, first.out, first.cancelled, std::move(turn), times);
   std::vector<float> xyz;
   for (const Waiting* w : joined) xyz.insert(xyz.end(), w->batch.xyz.begin(), w->batch.xyz.end());
-  std::vector<float> out(xyz.size() / 3 * components(first.quantity));
+  std::vector<float> out(first.layout.numbers(xyz.size() / 3));
   // Goes on for as long as one of them wants it.
   const auto cancelled = [&] {
     return std::all_of(joined.begin(), joined.end(),
@@ -188,7 +188,7 @@ absl::Status EvaluationQueue::run(const PointBatch& first, std::span<const float
                                   const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn,
                                   RequestTimes& times) {
   const TimedScope timed(times);
-  return run_(*first.scene, xyz, first.quantity, out, cancelled, {urgency_of(first), std::move(turn)});
+  return run_(*first.scene, xyz, first.layout, out, cancelled, {urgency_of(first), std::move(turn)});
 }
 
 }  // namespace isofield::engine

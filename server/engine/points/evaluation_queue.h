@@ -28,8 +28,8 @@ struct QueueOptions {
 struct PointBatch {
   SceneLease scene;
   std::span<const float> xyz;  // as of FieldEvaluator::evaluate
-  Quantity quantity = Quantity::kValue;
-  std::span<float> out;  // components(quantity) numbers a point
+  ResultLayout layout = ResultLayout::kValue;
+  std::span<float> out;  // rows of the layout
   int priority = 0;      // the higher first
   gpu::Deadline deadline = gpu::Deadline::max();
   FieldEvaluator::Cancelled cancelled;
@@ -37,7 +37,7 @@ struct PointBatch {
   RequestTimes* times = nullptr;
 };
 
-// Small batches that wait when the device becomes free, of one scene and one quantity, go to it together, the most
+// Small batches that wait when the device becomes free, of one scene and one layout, go to it together, the most
 // urgent first: higher priority, then earlier deadline, then first come; the last of every `patience` submissions is
 // that of the batch that has waited longest. A large batch goes alone, and small ones pass between its slabs.
 //
@@ -48,7 +48,7 @@ class EvaluationQueue {
  public:
   // Runs a submission; FieldEvaluator::evaluate, where it is no test's.
   using Run =
-      std::function<absl::Status(const ResidentScene&, std::span<const float> xyz, Quantity, std::span<float> out,
+      std::function<absl::Status(const ResidentScene&, std::span<const float> xyz, ResultLayout, std::span<float> out,
                                  const FieldEvaluator::Cancelled&, FieldEvaluator::Submission)>;
   using Clock = std::function<gpu::Deadline()>;
 

@@ -64,9 +64,9 @@ absl::Status record_runs(Session& session, std::span<const JobRun> runs, const F
   return absl::OkStatus();
 }
 
-const shaders::Spirv& points_shader(Quantity quantity, bool is_sorted) {
-  if (quantity == Quantity::kValue) return is_sorted ? shaders::kSortedPointsValue : shaders::kPointsValue;
-  return is_sorted ? shaders::kSortedPointsGradient : shaders::kPointsGradient;
+const shaders::Spirv& points_shader(ResultLayout layout, bool is_sorted) {
+  if (layout.has(Quantity::kGradient)) return is_sorted ? shaders::kSortedPointsGradient : shaders::kPointsGradient;
+  return is_sorted ? shaders::kSortedPointsValue : shaders::kPointsValue;
 }
 
 // Of shaders/grid.comp.
@@ -87,23 +87,23 @@ bool FieldEvaluator::is_sorted(const ResidentScene& scene) const {
   return scene.tape().code.size() > profile().unsorted_instructions;
 }
 
-absl::Status FieldEvaluator::prepare(const ResidentScene& scene, Quantity quantity) {
+absl::Status FieldEvaluator::prepare(const ResidentScene& scene, ResultLayout layout) {
   return kernels_
-      .get(points_shader(quantity, is_sorted(scene)), TapeWindows::windowed(device_, KernelKind::of(scene.tape())))
+      .get(points_shader(layout, is_sorted(scene)), TapeWindows::windowed(device_, KernelKind::of(scene.tape())))
       .status();
 }
 
-absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<const float> xyz, Quantity quantity,
+absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<const float> xyz, ResultLayout layout,
                                       std::span<float> out, const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3;
   if (count == 0) return absl::OkStatus();
-  const gpu::SharedPipeline written =
-      written_ ? written_->find(scene, quantity == Quantity::kValueAndGradient, count) : nullptr;
-  if (written) return evaluate_written(written, scene, xyz, quantity, out, cancelled, std::move(submission));
-  if (!is_sorted(scene)) return evaluate_unsorted(scene, xyz, quantity, out, cancelled, std::move(submission));
+  const bool with_gradient = layout.has(Quantity::kGradient);
+  const gpu::SharedPipeline written = written_ ? written_->find(scene, with_gradient, count) : nullptr;
+  if (written) return evaluate_written(written, scene, xyz, layout, out, cancelled, std::move(submission));
+  if (!is_sorted(scene)) return evaluate_unsorted(scene, xyz, layout, out, cancelled, std::move(submission));
   const bool may_make = !submission.turn;  // which takes a turn of its own
   ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, may_make, cancelled));
-  if (index) return evaluate_indexed(*index, scene, xyz, quantity, out, cancelled, std::move(submission));
+  if (index) return evaluate_indexed(*index, scene, xyz, layout, out, cancelled, std::move(submission));
   blobtree::PointBins binned = blobtree::bin_points(scene.tape(), xyz);
   TapeWindows tapes(device_, scene, std::move(binned.code));
   std::vector<Bin> bins;
@@ -114,12 +114,12 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
   ISOFIELD_ASSIGN_OR_RETURN(Slab slab, begin_slab(submission));
   slab.sorted = std::move(binned.points);
   ISOFIELD_RETURN_IF_ERROR(tapes.upload(slab.session));
-  ISOFIELD_RETURN_IF_ERROR(record(slab, scene, tapes, bins, quantity, out, cancelled));
+  ISOFIELD_RETURN_IF_ERROR(record(slab, scene, tapes, bins, layout, out, cancelled));
   return slab.session.run();
 }
 
 absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const ResidentScene& scene,
-                                              std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                                              std::span<const float> xyz, ResultLayout layout, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3, bricks = index.tapes().size();
   const std::size_t most =
@@ -144,8 +144,8 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
     if (work >= profile().submission_work) ISOFIELD_RETURN_IF_ERROR(finish(running));
     ISOFIELD_ASSIGN_OR_RETURN(Slab slab, begin_slab(submission));
     slab.sorted = std::move(sorted.points);
-    ISOFIELD_RETURN_IF_ERROR(record(slab, scene, index.windows(), bins, quantity,
-                                    out.subspan(first * components(quantity), part * components(quantity)), cancelled));
+    ISOFIELD_RETURN_IF_ERROR(record(slab, scene, index.windows(), bins, layout,
+                                    out.subspan(layout.numbers(first), layout.numbers(part)), cancelled));
     ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(slab)));
   }
   return finish(running);
@@ -175,9 +175,9 @@ absl::StatusOr<FieldEvaluator::Slab> FieldEvaluator::begin_slab(Submission& subm
 }
 
 absl::Status FieldEvaluator::record(Slab& slab, const ResidentScene& scene, const TapeWindows& tapes,
-                                    std::span<const Bin> bins, Quantity quantity, std::span<float> out,
+                                    std::span<const Bin> bins, ResultLayout layout, std::span<float> out,
                                     const Cancelled& cancelled) {
-  const std::size_t count = out.size() / components(quantity);
+  const std::size_t count = out.size() / layout.numbers();
   const std::uint32_t points_per_job = this->points_per_job();
   const std::uint32_t jobs_per_group = kPointsPerGroup / points_per_job;
   std::vector<PointJob> jobs;
@@ -211,7 +211,7 @@ absl::Status FieldEvaluator::record(Slab& slab, const ResidentScene& scene, cons
                                static_cast<std::uint32_t>(run.first + run.count - 1),
                                static_cast<std::uint32_t>(std::countr_zero(points_per_job))};
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel,
-                              kernels_.get(points_shader(quantity, true), tapes.kind(kind, run.window)));
+                              kernels_.get(points_shader(layout, true), tapes.kind(kind, run.window)));
     return session.commands().dispatch(kernel,
                                        tapes.bindings(run.window, {{binding::sorted_points::kJobs, job_buffer},
                                                                    {binding::sorted_points::kPoints, points},
@@ -222,7 +222,7 @@ absl::Status FieldEvaluator::record(Slab& slab, const ResidentScene& scene, cons
 }
 
 template <class Dispatch>
-absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const float> xyz, Quantity quantity,
+absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const float> xyz, ResultLayout layout,
                                                std::span<float> out, const Cancelled& cancelled, Submission submission,
                                                const Dispatch& dispatch) {
   const std::size_t count = xyz.size() / 3;
@@ -233,14 +233,14 @@ absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const
     const std::size_t part = std::min(most, count - first);
     ISOFIELD_ASSIGN_OR_RETURN(Slab slab, begin_slab(submission));
     Session& session = slab.session;
-    const std::span<float> part_out = out.subspan(first * components(quantity), part * components(quantity));
+    const std::span<float> part_out = out.subspan(layout.numbers(first), layout.numbers(part));
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const points, session.input(xyz.subspan(3 * first, 3 * part)));
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const results, session.output(part_out));
     const auto last = static_cast<std::uint32_t>(part - 1);
     ISOFIELD_RETURN_IF_ERROR(
         dispatch(session,
-                 gpu::Commands::Bindings{{binding::points::kPoints, points}, {binding::points::kResults, results}}, last,
-                 last / kPointsPerGroup + 1));
+                 gpu::Commands::Bindings{{binding::points::kPoints, points}, {binding::points::kResults, results}},
+                 last, last / kPointsPerGroup + 1));
     ISOFIELD_RETURN_IF_ERROR(session.download(*results, part_out));
     ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(slab)));
   }
@@ -248,12 +248,12 @@ absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const
 }
 
 absl::Status FieldEvaluator::evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene,
-                                              std::span<const float> xyz, Quantity quantity, std::span<float> out,
+                                              std::span<const float> xyz, ResultLayout layout, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
   const std::size_t most = std::max<std::size_t>(
       profile().written_work / WrittenKernels::work_of(scene.tape()), kPointsPerGroup);
   return evaluate_in_order(
-      most, xyz, quantity, out, cancelled, std::move(submission),
+      most, xyz, layout, out, cancelled, std::move(submission),
       [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last, std::uint32_t groups) {
         // Nothing is read where a tape would be.
         return session.commands().dispatch(kernel, scene.bindings(*own.front().buffer, own), last, groups);
@@ -261,7 +261,7 @@ absl::Status FieldEvaluator::evaluate_written(const gpu::SharedPipeline& kernel,
 }
 
 absl::Status FieldEvaluator::evaluate_unsorted(const ResidentScene& scene, std::span<const float> xyz,
-                                               Quantity quantity, std::span<float> out, const Cancelled& cancelled,
+                                               ResultLayout layout, std::span<float> out, const Cancelled& cancelled,
                                                Submission submission) {
   TapeWindows tapes(device_, scene, scene.tape().code);
   std::uint32_t begin = 0;
@@ -269,9 +269,9 @@ absl::Status FieldEvaluator::evaluate_unsorted(const ResidentScene& scene, std::
   const std::uint32_t window = tapes.add(begin, length);
   ISOFIELD_ASSIGN_OR_RETURN(
       const gpu::SharedPipeline kernel,
-      kernels_.get(points_shader(quantity, false), tapes.kind(KernelKind::of(scene.tape()), window)));
+      kernels_.get(points_shader(layout, false), tapes.kind(KernelKind::of(scene.tape()), window)));
   bool is_uploaded = false;
-  return evaluate_in_order(profile().submission_work / length, xyz, quantity, out, cancelled, std::move(submission),
+  return evaluate_in_order(profile().submission_work / length, xyz, layout, out, cancelled, std::move(submission),
                            [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last,
                                std::uint32_t groups) -> absl::Status {
                              if (!std::exchange(is_uploaded, true)) ISOFIELD_RETURN_IF_ERROR(tapes.upload(session));
@@ -281,9 +281,9 @@ absl::Status FieldEvaluator::evaluate_unsorted(const ResidentScene& scene, std::
 }
 
 absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice,
-                                             std::uint32_t first_layer, Quantity quantity, std::span<float> out,
+                                             std::uint32_t first_layer, ResultLayout layout, std::span<float> out,
                                              const Cancelled& cancelled) {
-  const std::size_t layer = std::size_t{lattice.cells[0]} * lattice.cells[1] * components(quantity);
+  const std::size_t layer = layout.numbers(std::size_t{lattice.cells[0]} * lattice.cells[1]);
   const auto layers = static_cast<std::uint32_t>(out.size() / layer);
   // Culled as a lattice of its own; the device numbers points in the whole one, so that they are the same bits.
   blobtree::CullRequest part{.lattice = lattice, .keep = blobtree::Keep::kSupport, .cancelled = cancelled};
@@ -317,7 +317,7 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
                           0,
                           first_layer,
                           layers};
-  const shaders::Spirv& shader = quantity == Quantity::kValue ? shaders::kGridValue : shaders::kGridGradient;
+  const shaders::Spirv& shader = layout.has(Quantity::kGradient) ? shaders::kGridGradient : shaders::kGridValue;
   ISOFIELD_RETURN_IF_ERROR(record_runs(session, runs, cancelled, [&](const JobRun& run) -> absl::Status {
     constants.first_brick = static_cast<std::uint32_t>(run.first);
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shader, tapes.kind(kind, run.window)));

@@ -183,14 +183,17 @@ class Cast {
   absl::Status describe() {
     xyz_.clear();
     for (const Crossing& c : crossings_) append(xyz_, c.ray.point(c.root.root()));
-    std::vector<float> fields(4 * crossings_.size());
-    ISOFIELD_RETURN_IF_ERROR(fields_.evaluate(scene_, xyz_, Quantity::kValueAndGradient, fields, cancelled_));
+    constexpr ResultLayout kLayout = ResultLayout::kValueAndGradient;
+    std::vector<float> fields(kLayout.numbers(crossings_.size()));
+    ISOFIELD_RETURN_IF_ERROR(fields_.evaluate(scene_, xyz_, kLayout, fields, cancelled_));
+    const ResultRows rows(kLayout, fields);
     const std::vector<std::uint32_t> leaves = blobtree::nearest_leaves(scene_.tape(), xyz_);
     for (std::size_t n = 0; n < crossings_.size(); ++n) {
       const Crossing& c = crossings_[n];
       hits_.distances[c.number] = static_cast<float>(std::max(c.root.root(), 0.0));
       std::copy_n(&xyz_[3 * n], 3, &hits_.positions[3 * std::size_t{c.number}]);
-      const dvec3 outward = dvec3{fields[4 * n + 1], fields[4 * n + 2], fields[4 * n + 3]} * -level_.inward();
+      const auto [gx, gy, gz] = rows.gradient(n);
+      const dvec3 outward = dvec3{gx, gy, gz} * -level_.inward();
       const double slope = length(outward);
       // Where the gradient vanishes, the side that the ray is on.
       const dvec3 normal = slope > 0 ? outward * (1 / slope) : c.ray.direction * (hits_.inside[c.number] ? 1.0 : -1.0);
@@ -206,7 +209,7 @@ class Cast {
 
   absl::Status evaluate() {
     values_.resize(xyz_.size() / 3);
-    return fields_.evaluate(scene_, xyz_, Quantity::kValue, values_, cancelled_);
+    return fields_.evaluate(scene_, xyz_, ResultLayout::kValue, values_, cancelled_);
   }
 
   FieldEvaluator& fields_;

@@ -18,7 +18,7 @@ absl::StatusOr<Slice> slice(FieldEvaluator& fields, const ResidentScene& scene, 
   }
   Slice result;
   result.values.resize(std::size_t{columns} * rows);
-  ISOFIELD_RETURN_IF_ERROR(fields.evaluate(scene, xyz, Quantity::kValue, result.values, cancelled));
+  ISOFIELD_RETURN_IF_ERROR(fields.evaluate(scene, xyz, ResultLayout::kValue, result.values, cancelled));
   for (const double level : levels) {
     if (cancelled && cancelled()) return absl::CancelledError("the request was cancelled");
     Polylines lines = iso_lines(result.values, plane.counts, static_cast<float>(level));

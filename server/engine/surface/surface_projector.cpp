@@ -78,11 +78,11 @@ class Projection {
   }
 
   // `fields`: value and gradient at points().
-  void advance(std::span<const float> fields) {
+  void advance(const ResultRows& fields) {
     std::size_t kept = 0;
     for (std::size_t n = 0; n < walkers_.size(); ++n) {
-      const float* f = &fields[4 * n];
-      if (advance(walkers_[n], f[0], {f[1], f[2], f[3]})) walkers_[kept++] = walkers_[n];
+      const auto [gx, gy, gz] = fields.gradient(n);
+      if (advance(walkers_[n], fields.value(n), {gx, gy, gz})) walkers_[kept++] = walkers_[n];
     }
     walkers_.resize(kept);
   }
@@ -140,12 +140,13 @@ class Projection {
 
 absl::StatusOr<Projections> SurfaceProjector::project(const ResidentScene& scene, const ProjectionRequest& request,
                                                       const FieldEvaluator::Cancelled& cancelled) {
+  constexpr ResultLayout kLayout = ResultLayout::kValueAndGradient;
   Projection projection(scene, request);
   for (int step = 0; step < kMostSteps && !projection.done(); ++step) {
     const std::vector<float> xyz = projection.points();
-    std::vector<float> fields(xyz.size() / 3 * components(Quantity::kValueAndGradient));
-    ISOFIELD_RETURN_IF_ERROR(fields_.evaluate(scene, xyz, Quantity::kValueAndGradient, fields, cancelled));
-    projection.advance(fields);
+    std::vector<float> fields(kLayout.numbers(xyz.size() / 3));
+    ISOFIELD_RETURN_IF_ERROR(fields_.evaluate(scene, xyz, kLayout, fields, cancelled));
+    projection.advance(ResultRows(kLayout, fields));
   }
   return projection.take_result();
 }
