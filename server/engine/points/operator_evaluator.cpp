@@ -6,6 +6,7 @@
 
 #include "base/status_macros.h"
 #include "blobtree/tape/operation.h"
+#include "engine/kernels/bindings.h"
 #include "engine/residency/resident_scene.h"
 #include "engine/session.h"
 
@@ -26,6 +27,8 @@ struct Constants {
   std::uint32_t is_opening = 0;
 };
 
+using binding::operator_eval::kArguments, binding::operator_eval::kResults;
+
 absl::Status run(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes, blobtree::Tape tape,
                  Constants constants, std::size_t result_columns, std::span<const float> arguments,
                  std::span<float> results) {
@@ -44,7 +47,7 @@ absl::Status run(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer out, session.scratch(count * result_columns * sizeof(float)));
     // The kernel runs no tape: any buffer will do in its place.
     ISOFIELD_RETURN_IF_ERROR(
-        session.commands().dispatch(kernel, resident->bindings(in, {{4, &in}, {5, &out}}), constants,
+        session.commands().dispatch(kernel, resident->bindings(in, {{kArguments, &in}, {kResults, &out}}), constants,
                                     static_cast<std::uint32_t>((count + kLocalSize - 1) / kLocalSize)));
     ISOFIELD_RETURN_IF_ERROR(session.download(out, results.subspan(first * result_columns, count * result_columns)));
     ISOFIELD_RETURN_IF_ERROR(session.run());

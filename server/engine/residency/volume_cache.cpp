@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/status_macros.h"
+#include "engine/kernels/bindings.h"
 #include "engine/session.h"
 #include "operators/profile_table.h"
 #include "shaders/embedded.h"
@@ -47,7 +48,10 @@ absl::StatusOr<gpu::Buffer> fill_gradient(Session& session, KernelCache& kernels
   for (const auto& shader : {is_smooth ? shaders::kSmoothVolumeLow : shaders::kTableVolumeLow,
                              is_smooth ? shaders::kSmoothVolumeHigh : shaders::kTableVolumeHigh}) {
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels.get(shader));
-    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel, {{2, &table_buffer}, {4, &layer_buffer}, {5, &nodes}},
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel,
+                                                         {{binding::scene::kTables, &table_buffer},
+                                                          {binding::operator_volume::kAngles, &layer_buffer},
+                                                          {binding::operator_volume::kNodes, &nodes}},
                                                          size, size / 4 * size));
   }
   inputs.push_back(std::move(layer_buffer));
@@ -61,8 +65,9 @@ absl::StatusOr<gpu::Buffer> fill_sampled(Session& session, KernelCache& kernels,
   ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer sample_buffer, session.upload(std::span(samples.values)));
   ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer nodes, session.scratch(sizeof(float) * 4 * samples.values.size()));
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels.get(shaders::kSampledVolume));
-  ISOFIELD_RETURN_IF_ERROR(
-      session.commands().dispatch(kernel, {{4, &sample_buffer}, {5, &nodes}}, size, (size * size * size + 63) / 64));
+  ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
+      kernel, {{binding::sampled_volume::kSamples, &sample_buffer}, {binding::sampled_volume::kNodes, &nodes}}, size,
+      (size * size * size + 63) / 64));
   inputs.push_back(std::move(sample_buffer));
   return nodes;
 }
