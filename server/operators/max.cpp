@@ -1,7 +1,5 @@
 #include "operators/max.h"
 
-#include <algorithm>
-
 #include "operators/operator.h"
 
 namespace isofield::operators {
@@ -12,10 +10,6 @@ Max Max::read(const v1::Max&, base::FieldReader&) {
 
 Opcode Max::opcode(Law) const {
   return Opcode::kMax;
-}
-
-Interval Max::bound(const Interval& a, const Interval& b) const {
-  return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
 
 }  // namespace isofield::operators

@@ -1,6 +1,8 @@
 // The least of fields of either law: the intersection of positive ones, the union of signed ones.
 #pragma once
 
+#include <algorithm>
+
 #include "operators/binary.h"
 #include "operators/kind.h"
 
@@ -28,7 +30,7 @@ struct Min {
   Binary<T> unite(const T& f1, const T& f2) const {
     return value_of(f1) <= value_of(f2) ? Binary<T>{f1, T(1.0), T(0.0)} : Binary<T>{f2, T(0.0), T(1.0)};
   }
-  Interval bound(const Interval& a, const Interval& b) const;
+  Interval bound(const Interval& a, const Interval& b) const { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 };
 
 }  // namespace isofield::operators

@@ -12,8 +12,4 @@ Opcode Sum::opcode(Law) const {
   return Opcode::kSum;
 }
 
-Interval Sum::bound(const Interval& a, const Interval& b) const {
-  return {a.lo + b.lo, a.hi + b.hi};
-}
-
 }  // namespace isofield::operators

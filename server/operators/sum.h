@@ -28,7 +28,7 @@ struct Sum {
   Binary<T> unite(const T& f1, const T& f2) const {
     return {f1 + f2, T(1.0), T(1.0)};
   }
-  Interval bound(const Interval& a, const Interval& b) const;
+  Interval bound(const Interval& a, const Interval& b) const { return {a.lo + b.lo, a.hi + b.hi}; }
 };
 
 }  // namespace isofield::operators

@@ -10,6 +10,8 @@ using operators::Form;
 
 // Operands in their order; unions.
 Interval union_interval(Opcode op, const Operation& o, const Interval& a, const Interval& b) {
+  // Large scenes are mostly sums, of which the way through the table would cost as much as the sum.
+  if (op == Opcode::kSum) return operators::Sum().bound(a, b);
   if (op == Opcode::kSubtract) return operators::Difference::bound_positive(a, b);
   return o.what->visit([&]<class K>(const K& kind) -> Interval {
     if constexpr (operators::IsSteered<K>) {

@@ -1,6 +1,7 @@
 #include "blobtree/cull/pruner.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -18,17 +19,27 @@ Instruction with_operand(Instruction i, Operand operand) {
   return i;
 }
 
+// Whether each opcode takes all of its operands at once, by its number.
+constexpr auto kIsJoint = [] {
+  std::array<bool, operators::kOpcodes.size()> is_joint{};
+  for (std::size_t i = 0; i < is_joint.size(); ++i) {
+    is_joint[i] = operators::kOpcodes[i].applies == operators::Applies::kMany;
+  }
+  return is_joint;
+}();
+
 bool is_joint(Opcode op) {
-  return operators::traits_of(op).applies == operators::Applies::kMany;
+  return kIsJoint[static_cast<std::size_t>(op)];
 }
 
 }  // namespace
 
-Pruner::Value Pruner::leaf_value(const Leaf& leaf, const Box& box, const CentredBox& centred) const {
+void Pruner::bound_leaf(const Leaf& leaf, const Box& box, const CentredBox& centred, Value& value) {
   const bool is_positive = leaf.law == operators::Law::kPositive;
-  if (is_positive && !leaf.support.touches(box)) return {{0, 0}, 0, true};
-  const Interval range = field_bounds(leaf, centred);
-  return {range, 0, is_positive && range.hi <= 0};
+  value.is_zero = is_positive && !leaf.support.touches(box);
+  if (value.is_zero) return;
+  value.range = field_bounds(leaf, centred);
+  value.is_zero = is_positive && value.range.hi <= 0;
 }
 
 void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vector<Instruction>& out) {
@@ -72,7 +83,8 @@ void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vec
     if (op == Opcode::kMin && (greater || less)) return less ? keep_left() : keep_right();
   }
   const Operation& o = tape_.operation(i);
-  const int alone = lone_operand(o, mode, left.range, right.range);
+  const bool is_signed = o.law == operators::Law::kSigned;
+  const int alone = is_signed ? lone_operand(o, mode, left.range, right.range) : -1;
   if (alone >= 0) {
     (alone == 0) != mode.is_exchanged ? keep_left() : keep_right();
     if (o.what->weight(alone) != 1) {
@@ -81,8 +93,7 @@ void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vec
     return;
   }
   const Interval range = binary_interval(op, o, mode, left.range, right.range);
-  const bool is_positive = o.law == operators::Law::kPositive;
-  if (is_positive && range.hi <= 0) return vanish();
+  if (!is_signed && range.hi <= 0) return vanish();
   out.push_back(i);
   left.range = range;
 }
@@ -174,8 +185,7 @@ Pruned Pruner::prune(const std::vector<Instruction>& source, std::size_t begin, 
       stack_.pop_back();
       fused = false;
     } else if (i.is_leaf()) {
-      right = leaf_value(tape_.leaves[i.index], box, centred);
-      right.begin = out.size();
+      bound_leaf(tape_.leaves[i.index], box, centred, right);
     } else {
       // The constant 0: what is taken away where nothing is left to take, or what a conversion starts from.
       right.is_zero = i.op() != Opcode::kPush;

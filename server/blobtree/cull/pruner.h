@@ -34,7 +34,8 @@ class Pruner {
     std::size_t begin;
     bool is_zero = false;
   };
-  Value leaf_value(const Leaf& leaf, const Box& box, const CentredBox& centred) const;
+  // Fills the range of a leaf over the box, and whether it is 0 there.
+  static void bound_leaf(const Leaf& leaf, const Box& box, const CentredBox& centred, Value& value);
   // Combines the value on top of the stack with the right operand of i: a leaf fused into i, or (`fused` false) a value
   // whose code has been appended already.
   void join(const Instruction& i, const Value& right, bool fused, std::vector<Instruction>& out);

@@ -8,11 +8,11 @@ namespace isofield::blobtree {
 
 // The point p of the world is the point to_local (p - anchor) of the leaf's frame.
 struct Domain {
-  Affine to_local;  // linear part only
   dvec3 anchor;
-  bool is_rigid = false;  // it keeps lengths
   // The most that it stretches lengths, from the world to the leaf's frame: it bounds the slope of a distance.
   double stretch = 1;
+  bool is_rigid = false;  // it keeps lengths
+  Affine to_local;        // linear part only
 
   dvec3 point(const dvec3& p) const { return to_local.vector(p - anchor); }
 };

@@ -11,18 +11,20 @@
 
 namespace isofield::blobtree {
 
-struct Leaf {
+// What tells that a leaf does not reach a box stands first, within one line of the processor's cache: most leaves that
+// culling asks are far away.
+struct alignas(64) Leaf {
   Operand operand = Operand::kZero;
-  Shape shape;  // in lengths of the world where its domain is rigid
   operators::Law law = operators::Law::kPositive;
-  double range = 0;         // of a positive field
-  double per_distance = 1;  // signed: the field is the distance times this
-  Domain domain;
-  // Positive: holds every point where the field is not 0, with room for float32 rounding. Signed: the shape itself.
-  Box support;
-  double growth = 1;         // signed: where the field is at most r, the box grown by r times this holds the point
   std::uint32_t record = 0;  // its place in the buffer of leaves, in vec4
   std::uint32_t node = 0;    // in Scene::nodes
+  // Positive: holds every point where the field is not 0, with room for float32 rounding. Signed: the shape itself.
+  Box support;
+  double range = 0;         // of a positive field
+  double per_distance = 1;  // signed: the field is the distance times this
+  double growth = 1;        // signed: where the field is at most r, the box grown by r times this holds the point
+  Shape shape;              // in lengths of the world where its domain is rigid
+  Domain domain;
 
   // The signed distance at a point of the world, in the shape's own lengths.
   double distance(const dvec3& p) const;

@@ -47,11 +47,4 @@ void Sphere::write(const Domain& domain, Slope slope, Operand operand, Float4* o
   out[1] = {f32(radius), 0, 0, 0};
 }
 
-std::optional<Interval> Sphere::box_bounds(const Domain& domain, const CentredBox& box) const {
-  if (!domain.is_rigid) return std::nullopt;
-  const dvec3 v = abs(box.centre - domain.anchor), n = v - box.half;
-  const dvec3 nearest{std::max(n.x, 0.0), std::max(n.y, 0.0), std::max(n.z, 0.0)};
-  return Interval{length(nearest) - radius, length(v + box.half) - radius};
-}
-
 }  // namespace isofield::blobtree::shapes
