@@ -79,7 +79,7 @@ absl::Status Shelf::refusal(const std::string& name, const Condition& condition,
                                                        " bytes, expected at most ", quota_.bytes,
                                                        "; delete one first"));
   }
-  return absl::OkStatus();
+  return absl::InternalError("the store gave an outcome that is none");
 }
 
 }  // namespace isofield::catalog

@@ -14,7 +14,8 @@ class FieldReader;
 
 namespace isofield::operators {
 
-// Returns the number a, of which this is a function's value and slope; numbers that carry derivatives have their own.
+// The chain rule for a number without derivatives: of the number, a function's value there and its slope it returns the
+// value. Numbers that carry derivatives have a chain() of their own.
 inline double chain(double, double value, double) {
   return value;
 }

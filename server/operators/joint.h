@@ -18,7 +18,7 @@ struct Joint {
   std::vector<T> partials;
 };
 
-// Those operands, by bits, that are left of `operands` ones.
+// The operands that pruning has left, a bit each, of those that the operator had.
 struct OperandMask {
   std::uint32_t bits, operands;
   bool has(std::uint32_t operand) const { return (bits >> operand & 1) != 0; }

@@ -49,8 +49,8 @@ inline constexpr std::size_t kAnyNumber = ~std::size_t{0};
 // What an instruction of a tape does (operator.h).
 enum class Opcode : std::uint8_t;
 
-// Of a union of signed fields: where the result is at most r, this operand is at most `reach` + r `times` / `over`, for
-// results below `limit`. With times = 0 the operand's own field says nothing of how the result grows.
+// How a union of signed fields bounds one of its operands: where the result is at most r, this operand is at most
+// reach + r times / over. It holds for results below the limit. If times is 0, only results of at most 0 are bounded.
 struct Spread {
   double reach = 0;
   double times = 1, over = 1;

@@ -19,8 +19,10 @@ void SmoothMin::write(const Use&, Tables&, Float4* out) const {
 }
 
 Interval SmoothMin::bound(const Interval& a, const Interval& b) const {
-  // It increases with either field.
-  return base::padded(unite(a.lo, b.lo).g, unite(a.hi, b.hi).g);
+  // It increases with either field. Where the result is near 0, what is subtracted rounds by more than the result says.
+  const double room = base::kValueRoom * radius / 4;
+  const Interval r = base::padded(unite(a.lo, b.lo).g, unite(a.hi, b.hi).g);
+  return {r.lo - room, r.hi + room};
 }
 
 Spread SmoothMin::reached(std::size_t) const {

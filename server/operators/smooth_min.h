@@ -1,7 +1,6 @@
 // The quadratic smooth minimum of signed fields, with one radius:
 //   min(x1, x2) - radius / 4 h^2,  h = max(0, 1 - |x1 - x2| / radius)
-// (I. Quilez, "Smooth minimum"). As an intersection it is the smooth maximum,
-// its dual.
+// (I. Quilez, "Smooth minimum"). As an intersection it is the smooth maximum, its dual.
 #pragma once
 
 #include "operators/binary.h"

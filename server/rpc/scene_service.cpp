@@ -1,5 +1,8 @@
 #include "rpc/scene_service.h"
 
+#include <algorithm>
+
+#include "base/limits.h"
 #include "base/status_macros.h"
 #include "catalog/pages.h"
 #include "rpc/answer_limit.h"
@@ -16,8 +19,10 @@ void fill_summary(const catalog::Entry& entry, const engine::ResidentScene& scen
   summary.set_device_bytes(scene.device_bytes());
   const blobtree::Box& box = scene.tape().support;
   if (box.empty()) return;
-  for (const double x : {box.min.x, box.min.y, box.min.z}) summary.add_support_min(x);
-  for (const double x : {box.max.x, box.max.y, box.max.z}) summary.add_support_max(x);
+  // An axis without an end has the limits of coordinates: not every JSON reader takes infinities.
+  const auto within = [](double x) { return std::clamp(x, -base::kMaxCoordinate, base::kMaxCoordinate); };
+  for (const double x : {box.min.x, box.min.y, box.min.z}) summary.add_support_min(within(x));
+  for (const double x : {box.max.x, box.max.y, box.max.z}) summary.add_support_max(within(x));
 }
 
 }  // namespace

@@ -115,6 +115,9 @@ void write_mesh() {
 
 int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
+  if (what != "bindings" && what != "sizes" && what != "mesh") {
+    return std::fputs("usage: isofield_write_layouts bindings|sizes|mesh\n", stderr), 2;
+  }
   const std::string guard = macro_of(what, "Glsl");
   std::printf("// Written by shaders/generators/layouts.cpp.\n#ifndef %s\n#define %s\n", guard.c_str(), guard.c_str());
   if (what == "bindings") write_bindings();

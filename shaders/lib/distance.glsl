@@ -5,7 +5,7 @@
 #include "domain.glsl"
 #include "field.glsl"
 
-// Coordinates beyond would overflow when squared; all supports lie within.
+// Coordinates beyond this would overflow when they are squared. Fields are constant beyond it.
 const float FARTHEST = 1e10;
 vec3 within_reach(vec3 point) { return clamp(point, vec3(-FARTHEST), vec3(FARTHEST)); }
 

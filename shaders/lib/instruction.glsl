@@ -20,16 +20,16 @@ Field apply_operator(Field acc, Field v, uint op, uint mode, uint record) {
     a = select_field(first, complement(first, mode), (mode & 3u) != FORM_UNION);
     b = select_field(second, complement(second, mode), (mode & 3u) == FORM_INTERSECTION);
   }
-  Field u = in_frame(a, record), v_in_frame = in_frame(b, record);
+  Field a_in_frame = in_frame(a, record), b_in_frame = in_frame(b, record);
   if (op != OPERATOR_PUSH) {
     Angle angle = no_angle();
-    if (may_follow_angle()) angle = angle_between(u, v_in_frame);
+    if (may_follow_angle()) angle = angle_between(a_in_frame, b_in_frame);
     r = unite(a, b, op, record, angle);
 #ifdef CELL_SIZE
     if (makes_seams(op, record)) even_seam(r, a, b, part_turned(r, a, b), SHARP_SEAM);
 #endif
   }
-  r = unite_steered(r, a, b, u, v_in_frame, op, record);
+  r = unite_steered(r, a, b, a_in_frame, b_in_frame, op, record);
   if (has_modes()) r = formed(r, first, second, mode);
   return convert(r, acc, op, record);
 }

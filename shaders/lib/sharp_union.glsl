@@ -1,4 +1,4 @@
-// One of two fields, with the seam between them.
+// Minima and maxima: one of two fields.
 #ifndef SHARP_UNION_GLSL
 #define SHARP_UNION_GLSL
 
@@ -8,7 +8,7 @@
 #include "seams.glsl"
 #endif
 
-// One of the two.
+// Returns b if take_b, else a. Where normals are made, it evens out the seam between the two.
 Field sharp_union(Field a, Field b, bool take_b) {
   Field r = select_field(a, b, take_b);
 #ifdef CELL_SIZE

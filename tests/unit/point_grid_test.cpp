@@ -91,6 +91,31 @@ TEST(PointGrid, IsNoneWhereMostPrimitivesOverlap) {
   EXPECT_EQ(PointGrid::make(tape, bricks, [] { return true; }).status().code(), absl::StatusCode::kCancelled);
 }
 
+// The grid takes the field to be 0 outside of it.
+TEST(PointGrid, IsNoneOfASignedFieldOrOneWithoutAnEnd) {
+  v1::Scene spheres;
+  v1::Node least, sum;
+  for (int i = 0; i < 40; ++i) {
+    v1::Sphere& s = *spheres.add_nodes()->mutable_sphere();
+    s.add_center(i), s.add_center(0), s.add_center(0);
+    s.set_radius(0.4);
+    least.mutable_min()->add_children(test_support::place(i));
+    sum.mutable_sum()->add_children(test_support::place(i));
+  }
+  v1::Scene is_signed = spheres, has_no_end = spheres;
+  for (v1::Node& node : *is_signed.mutable_nodes()) node.mutable_sphere()->set_law(v1::SIGNED);
+  *is_signed.add_nodes() = least;
+  for (v1::Node& node : *has_no_end.mutable_nodes()) node.mutable_sphere()->set_range(0.5);
+  has_no_end.add_nodes()->mutable_half_space()->set_range(0.5);
+  sum.mutable_sum()->add_children(test_support::place(40));
+  *has_no_end.add_nodes() = sum;
+  for (const v1::Scene& scene : {is_signed, has_no_end}) {
+    BrickList bricks;
+    const auto grid = PointGrid::make(compile_or_die(read_or_die(scene)), bricks, {});
+    EXPECT_EQ(grid.status().code(), absl::StatusCode::kFailedPrecondition) << grid.status();
+  }
+}
+
 TEST(PointGrid, SortsInPartsAsInOne) {
   const Tape tape = compile_or_die(read_or_die(test_support::random_scene(5, {.nodes = 40})));
   BrickList list;

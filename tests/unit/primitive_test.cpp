@@ -106,6 +106,29 @@ TEST(HalfSpace, BoundsWhatItIsIntersectedWith) {
   EXPECT_FALSE(both.support.is_bounded());
 }
 
+// A stated point may lie anywhere in the plane: what the device is given is near the origin.
+TEST(HalfSpace, IsAnchoredWhereItsPlaneIsNearest) {
+  const Leaf leaf = leaf_of(R"({"half_space": {"point": [1e6, 1e6, -2000000], "normal": [1, 1, 1], "law": "SIGNED"}})");
+  EXPECT_LT(length(leaf.domain.anchor), 1e-6);
+  EXPECT_NEAR(leaf.distance({1, 1, 1}), std::sqrt(3.0), 1e-9);
+  const Interval d = distance_bounds(leaf, CentredBox(Box{dvec3(-1), dvec3(1)}));
+  EXPECT_NEAR(d.lo, -std::sqrt(3.0), 1e-5);
+  EXPECT_NEAR(d.hi, std::sqrt(3.0), 1e-5);
+}
+
+TEST(HalfSpace, BoundsWhatItCutsInEitherOrder) {
+  const std::string nodes = R"({"name": "ball", "sphere": {"radius": 1, "law": "SIGNED"}},
+      {"name": "half", "half_space": {"normal": [1, 0, 0], "law": "SIGNED"}}, )";
+  for (const char* cut : {R"("max": {"children": ["ball", "half"])", R"("max": {"children": ["half", "ball"])",
+                          R"("smooth_min": {"radius": 0.2, "form": "INTERSECTION", "children": ["ball", "half"])",
+                          R"("smooth_min": {"radius": 0.2, "form": "INTERSECTION", "children": ["half", "ball"])"}) {
+    const Box support = compile_or_die(read_or_die(scene_of_nodes("[" + nodes + "{" + cut + "}}]"))).support;
+    ASSERT_TRUE(support.is_bounded()) << cut;
+    EXPECT_TRUE(support.touches({dvec3(-0.99, 0, 0), dvec3(-0.99, 0, 0)})) << cut;
+    EXPECT_LT(support.max.y, 1.5) << cut;
+  }
+}
+
 // The distance of a point of the half-plane of (rho, z) to the outline of a trapezoid, segment by segment; negative
 // inside.
 double distance_to_outline(const shapes::Cone& c, double rho, double z) {

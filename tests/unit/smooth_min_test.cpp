@@ -57,6 +57,17 @@ TEST(SmoothMin, HoldsItsBounds) {
   }
 }
 
+// What a device computes in float32 lies within the bounds too, where two terms cancel.
+TEST(SmoothMin, LeavesRoomForRounding) {
+  for (const double radius : {0.01, 1.0, 1000.0}) {
+    const SmoothMin op{radius};
+    const double x = radius / 4;  // the result of x and x is 0
+    const Interval r = op.bound({x, x}, {x, x});
+    EXPECT_LT(r.lo, -1e-7 * radius);
+    EXPECT_GT(r.hi, 1e-7 * radius);
+  }
+}
+
 TEST(SmoothMin, IsReadWithItsRadius) {
   const std::string balls = R"([{"sphere": {"radius": 1, "law": "SIGNED"}},
       {"sphere": {"center": [1, 0, 0], "radius": 1, "law": "SIGNED"}}, )";

@@ -23,8 +23,9 @@ constexpr std::size_t kLeastPart = 1u << 13, kMostParts = 8;
 absl::StatusOr<PointGrid> PointGrid::make(const Tape& tape, BrickList& bricks, const std::function<bool()>& cancelled) {
   const Box& box = tape.support;
   const double longest = box.empty() ? 0 : longest_edge(box);
-  if (!(longest > 0 && std::isfinite(longest))) {
-    return absl::FailedPreconditionError("the scene's support is empty or has no end");
+  // Outside of the grid the field is taken to be 0, which positive fields alone are.
+  if (tape.law != operators::Law::kPositive || !box.is_bounded() || !(longest > 0)) {
+    return absl::FailedPreconditionError("the scene's field is signed, or its support is empty or has no end");
   }
   const double along =
       std::clamp(kBricksAlongPerRoot * std::cbrt(static_cast<double>(tape.leaves.size())), kLeastAlong, kMostAlong);

@@ -21,8 +21,8 @@ namespace isofield::blobtree {
 // Immutable once made: any number of threads may sort at once.
 class PointGrid {
  public:
-  // FAILED_PRECONDITION: the support is empty or has no end. RESOURCE_EXHAUSTED: the bricks' tapes take more than
-  // kMostInstructions, since most primitives overlap. CANCELLED.
+  // FAILED_PRECONDITION: the field is signed, or its support is empty or has no end. RESOURCE_EXHAUSTED: the bricks'
+  // tapes take more than kMostInstructions, since most primitives overlap. CANCELLED.
   // `bricks` becomes those where the field may differ from 0.
   static absl::StatusOr<PointGrid> make(const Tape& tape, BrickList& bricks, const std::function<bool()>& cancelled);
   static constexpr std::size_t kMostInstructions = 1u << 21;

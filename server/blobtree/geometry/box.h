@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/limits.h"
 #include "blobtree/geometry/vec3.h"
 
 namespace isofield::blobtree {
@@ -15,12 +14,14 @@ struct Box {
   dvec3 min{std::numeric_limits<double>::infinity()};
   dvec3 max{-std::numeric_limits<double>::infinity()};
 
-  // Holds everything that a scene may hold.
-  static Box everywhere() { return {dvec3(-base::kMaxCoordinate), dvec3(base::kMaxCoordinate)}; }
+  // Holds all of space.
+  static Box everywhere() {
+    return {dvec3(-std::numeric_limits<double>::infinity()), dvec3(std::numeric_limits<double>::infinity())};
+  }
 
-  // Whether it ends on all sides; of what has no end a box has the limits of coordinates.
+  // Whether it ends on every side. An empty box does not.
   bool is_bounded() const {
-    const auto ends = [](double x) { return std::abs(x) < base::kMaxCoordinate; };
+    const auto ends = [](double x) { return std::isfinite(x); };
     return ends(min.x) && ends(min.y) && ends(min.z) && ends(max.x) && ends(max.y) && ends(max.z);
   }
   bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }

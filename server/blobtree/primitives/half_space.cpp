@@ -1,6 +1,7 @@
 #include "blobtree/primitives/half_space.h"
 
 #include <cmath>
+#include <limits>
 
 #include "blobtree/primitives/primitive.h"
 #include "isofield/v1/scene.pb.h"
@@ -24,7 +25,7 @@ double HalfSpace::own_lengths() const {
   return 0;
 }
 double HalfSpace::least_radius() const {
-  return base::kMaxCoordinate;
+  return std::numeric_limits<double>::infinity();  // a half-space has no thin part
 }
 double HalfSpace::area() const {
   return 0;
@@ -55,6 +56,11 @@ void HalfSpace::write(const Domain& domain, Slope slope, Operand, Float4* out) c
   const dvec3& normal = domain.to_local.linear[2];
   out[0] = {f32(domain.anchor.x), f32(domain.anchor.y), f32(domain.anchor.z), slope};
   out[1] = {f32(normal.x), f32(normal.y), f32(normal.z), 0};
+}
+
+dvec3 HalfSpace::anchor(const Domain& domain) const {
+  const dvec3& normal = domain.to_local.linear[2];
+  return normal * (dot(normal, domain.anchor) / dot(normal, normal));
 }
 
 std::optional<Interval> HalfSpace::box_bounds(const Domain& domain, const CentredBox& box) const {

@@ -27,6 +27,9 @@ struct HalfSpace {
   blobtree::Box support(const Affine& to_world, double range) const;
   Operand operand(bool is_rigid) const;
   void write(const Domain& domain, Slope slope, Operand operand, Float4* out) const;
+  // The point of the plane that is nearest to the world's origin. A stated point may lie anywhere in the plane, and
+  // float32 would lose digits to its coordinates.
+  dvec3 anchor(const Domain& domain) const;
   std::optional<Interval> box_bounds(const Domain& domain, const CentredBox& box) const;
 };
 

@@ -28,8 +28,9 @@ struct PrimitiveTraits {
 // The right operand of an instruction (primitive.h).
 enum class Operand : std::uint8_t;
 
-// What kernels make a field of a distance with: how fast the argument of the falloff grows with it; of a signed field
-// minus what it is multiplied by.
+// The number by which a kernel turns a distance into a field. Of positive fields it is how fast the argument of the
+// falloff grows with the distance, (1 - r0) / range; of signed fields minus the factor of the distance. The sign tells
+// the laws apart.
 using Slope = float;
 
 // The first four vec4s of the record of a shape in any affine domain: the anchor with the slope, and the rows of the
@@ -62,7 +63,7 @@ concept PrimitiveKind = requires(const K& kind, const dvec3& q, const Affine& to
   { kind.least_radius() } -> std::same_as<double>;
   // Roughly the area of its surface; 0 where it has no end.
   { kind.area() } -> std::same_as<double>;
-  // The most that a point's way to the surface is longer than its distance says.
+  // The largest ratio of the true way to the surface to what distance() says outside: 1 where it is exact.
   { kind.growth() } -> std::same_as<double>;
   // A box of the world that holds every point of a distance of at most `number`, where the map leads the shape's frame
   // to the world.
@@ -83,5 +84,11 @@ concept HasBoxBounds = requires(const K& kind, const Domain& domain, const Centr
 // The box of the image of a box, and of an ellipsoid, around the shape's own origin.
 Box box_image(const Affine& to_world, const dvec3& half);
 Box ellipsoid_image(const Affine& to_world, const dvec3& semi_axes);
+
+// A kind that is the same about several points, and chooses the one that its record is written about.
+template <class K>
+concept ChoosesItsAnchor = requires(const K& kind, const Domain& domain) {
+  { kind.anchor(domain) } -> std::same_as<dvec3>;
+};
 
 }  // namespace isofield::blobtree

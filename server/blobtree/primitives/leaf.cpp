@@ -16,10 +16,10 @@ constexpr double kStretchRounding = 1e-9;
 // from.
 constexpr double kLengthRoom = 1e-6;
 
-// Room for the rounding of coordinates and lengths to float32 on the device. Of an axis without an end on one side the
-// other side's end counts alone.
+// Grows the box by what float32 may round on the device. An infinite end does not count towards the room of the other
+// end.
 void pad(Box& box) {
-  const auto size = [](double end) { return std::abs(end) < base::kMaxCoordinate ? std::abs(end) : 0; };
+  const auto size = [](double end) { return std::isfinite(end) ? std::abs(end) : 0; };
   for (int axis = 0; axis < 3; ++axis) {
     const double room = 1e-6 * std::max(size(box.min[axis]), size(box.max[axis]));
     box.min[axis] -= room;
@@ -54,7 +54,7 @@ double Leaf::feature_size(double offset) const {
 }
 
 double Leaf::area() const {
-  const double scale = domain.stretch == 1 ? 1 : growth;
+  const double scale = domain.is_rigid ? 1 : growth;
   return std::visit([](const auto& s) { return s.area(); }, shape) * scale * scale;
 }
 
@@ -91,6 +91,11 @@ absl::StatusOr<Leaf> place_leaf(const Primitive& primitive, const Affine& to_wor
   leaf.domain.anchor = place.offset;
   leaf.domain.to_local = {inverse->linear, {}};
   leaf.domain.stretch = leaf.domain.is_rigid ? 1 : 1 / stretch.least;
+  std::visit(
+      [&]<class S>(const S& s) {
+        if constexpr (ChoosesItsAnchor<S>) leaf.domain.anchor = s.anchor(leaf.domain);
+      },
+      leaf.shape);
   leaf.growth = stretch.most * std::visit([](const auto& s) { return s.growth(); }, primitive.shape);
   leaf.operand = std::visit([&](const auto& s) { return s.operand(leaf.domain.is_rigid); }, leaf.shape);
   leaf.support = std::visit([&](const auto& s) { return s.support(place, leaf.range); }, leaf.shape);

@@ -11,8 +11,10 @@ class ProfileCount {
  public:
   void add(const operators::Operator& op) {
     if (const auto* opening = op.opening()) openings_.insert(*opening);
-    if (const auto* gradient = op.as<operators::Gradient>()) silhouettes_.insert(gradient->silhouette);
-    if (const auto* functional = op.as<operators::Functional>()) curves_.insert(functional->h);
+    op.visit([&](const auto& kind) {
+      if constexpr (requires { kind.silhouette; }) silhouettes_.insert(kind.silhouette);
+      if constexpr (requires { kind.h; }) curves_.insert(kind.h);
+    });
   }
   std::size_t size() const { return openings_.size() + silhouettes_.size() + curves_.size(); }
 

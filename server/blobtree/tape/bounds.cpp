@@ -30,13 +30,13 @@ void join_positive(Box& box, const operators::Operator& op, std::size_t operand,
   }
 }
 
-// Bounds of a result that an operand bounds in this way.
+// Turns bounds of an operand into bounds of the result.
 Bounds spread(const Bounds& b, const Spread& s) {
   const double limit = s.times > 0 ? (b.limit - s.reach) * s.over / s.times : s.limit;
   return {b.within(s.reach), b.growth * s.times / s.over, std::min(limit, s.limit)};
 }
 
-// Of a union of signed fields: the operand below which the result may reach r, as bounds of the operand's own.
+// Bounds of a union, as far as this operand decides it.
 Bounds reached(const operators::Operator& op, std::size_t operand, const Bounds& b) {
   return op.visit([&]<class K>(const K& kind) {
     if constexpr (operators::IsSigned<K>) {
@@ -47,7 +47,7 @@ Bounds reached(const operators::Operator& op, std::size_t operand, const Bounds&
   });
 }
 
-// Of an intersection or the first of a difference: the result is at least this operand over its weight.
+// Bounds of an intersection or a difference, from one operand that the result does not undercut.
 Bounds kept(const operators::Operator& op, std::size_t operand, const Bounds& b) {
   return op.visit([&]<class K>(const K& kind) {
     if constexpr (operators::IsSigned<K>) {
@@ -69,8 +69,12 @@ void join_signed(Bounds& so_far, const operators::Operator& op, std::size_t oper
   }
   const std::size_t place = is_joint ? operand : 1;
   if (is_difference || is_intersection) {
-    // Any operand of an intersection will do.
     if (!is_joint || operand == 0) so_far = kept(op, 0, so_far);
+    // Each operand bounds an intersection; the first one that has an end is taken.
+    if (is_intersection && operand > 0 && !so_far.box.is_bounded()) {
+      const Bounds other = kept(op, place, next);
+      if (other.box.is_bounded()) so_far = other;
+    }
     return;
   }
   const Bounds b = reached(op, place, next);

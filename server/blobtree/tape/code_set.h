@@ -9,7 +9,7 @@
 
 namespace isofield::blobtree {
 
-// Of the members of an enumeration of at most 256.
+// A set of members of an enumeration that has at most 256.
 template <class Code>
 class CodeSet {
  public:

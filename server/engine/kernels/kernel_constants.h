@@ -1,5 +1,5 @@
 // The specialisation constants of kernels that run tapes: their numbers and names, from which
-// shaders/generators/opcodes.cpp writes what the shaders declare.
+// shaders/generators/code_texts.cpp writes what the shaders declare.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace isofield::engine {
 
-// Of the constants before the words of the sets, which follow: first those of operands, then those of opcodes.
+// The first constants. The words of the set of operands follow them, then those of the set of opcodes.
 enum class KernelConstant {
   kFlags,        // blobtree::Codes::Flag
   kOnlyOperand,  // the one leaf that all instructions have, or kNone where they differ

@@ -6,7 +6,7 @@
 #include "joining.glsl"
 #include "parameters.glsl"
 
-// [H] eq. 4 as server/operators/ranged_blends.h has it. Where one operand alone makes the result it is x_i / m_i to the
+// [H] eq. 4 as server/operators/bt2.h has it. Where one operand alone makes the result it is x_i / m_i to the
 // bit, as it is where culling has dropped the other.
 Binary bt2(Dual x1, Dual x2, Reach2 reach, float tightness, vec2 inverse_weights) {
   // Weights that follow the gradients are divided by; constant ones have their inverse.

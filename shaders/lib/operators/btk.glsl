@@ -49,7 +49,8 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
   float slope = 0.0;
   for (uint i = 0u; i < ARITY; ++i) {
     bool is_there = value_of(terms[i].range) > 0.0;
-    Dual inverse_r = reciprocal(select_dual(dual(1.0), terms[i].range, is_there)), m = reciprocal(terms[i].inverse_weight);
+    Dual inverse_r = reciprocal(select_dual(dual(1.0), terms[i].range, is_there));
+    Dual m = reciprocal(terms[i].inverse_weight);
     Dual t = dual(1.0) + times(h * m - terms[i].x, inverse_r);
     bool is_active = is_there && value_of(t) > 0.0;
     float q = is_active ? power_of(value_of(t), 0.0, terms[i].power - 1.0) : 0.0;
@@ -61,7 +62,8 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
   Dual total = dual(0.0);
   for (uint i = 0u; i < ARITY; ++i) {
     bool is_there = value_of(terms[i].range) > 0.0;
-    Dual inverse_r = reciprocal(select_dual(dual(1.0), terms[i].range, is_there)), m = reciprocal(terms[i].inverse_weight);
+    Dual inverse_r = reciprocal(select_dual(dual(1.0), terms[i].range, is_there));
+    Dual m = reciprocal(terms[i].inverse_weight);
     Dual t = dual(1.0) + times(times(m, root) - terms[i].x, inverse_r);
     bool is_active = is_there && value_of(t) > 0.0;
     t = select_dual(dual(1.0), t, is_active);

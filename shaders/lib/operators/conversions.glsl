@@ -1,4 +1,4 @@
-// What changes one field by itself: from one law to the other, and by the weight of a blend that one operand is left of.
+// Operators of one field: from one law to the other, and the factor 1 / weight where a blend has one operand left.
 #ifndef CONVERSIONS_GLSL
 #define CONVERSIONS_GLSL
 

@@ -20,8 +20,8 @@ vec2 gradient_presence(float n) {
   return vec2(s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / NULL_GRADIENT);
 }
 
-// [G] eqs. 15 to 24, steered by the angle between the operands' directions in the operator's frame, those of `u` and `v`;
-// the gradient is the whole of eq. 29.
+// [G] eqs. 15 to 24, steered by the angle between the operands' directions in the operator's frame, those of `u` and
+// `v`; the gradient is the whole of eq. 29.
 // `blend`: a silhouette for gradient_blend(), or with `is_volume` the slot of a volume and its size << 8; of a sampled
 // operator the operation's length is negative.
 Field blend_by_gradient(Field a, Field b, Field u, Field v, vec4 operation, uint blend, bool is_volume) {

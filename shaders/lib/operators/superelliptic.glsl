@@ -9,8 +9,8 @@
 struct Bracket {
   Dual value, fall;
 };
-// Returns what the rounded quotient q of x and r lacks of the exact one, since an exponent t multiplies q's relative error.
-// It comes from the exact product of q and r, by their leading bits.
+// Returns what the rounded quotient q of x and r lacks of the exact one, since an exponent t multiplies q's relative
+// error. It comes from the exact product of q and r, by their leading bits.
 float missing_of_quotient(float q, float x, float r, float inverse_r) {
   precise float q1 = leading(q), q2 = q - q1, r1 = leading(r), r2 = r - r1;
   precise float rest = ((x - q1 * r1) - q1 * r2) - q2 * r;

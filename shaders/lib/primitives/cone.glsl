@@ -4,8 +4,8 @@
 
 #include "distance.glsl"
 
-// `size` holds half the length and the radii at the lower and at the upper end, `side` the outward normal (rho, z) and the
-// length of the side's line in the half-plane of (rho, z).
+// `size` holds half the length and the radii at the lower and at the upper end, `side` the outward normal (rho, z) and
+// the length of the side's line in the half-plane of (rho, z).
 Distance cone_distance(vec3 q, vec3 size, vec3 side) {
   float rho = length(q.xy);
   vec2 from_a = vec2(rho - size.y, q.z + size.x), from_b = vec2(rho - size.z, q.z - size.x);
