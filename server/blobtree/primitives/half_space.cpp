@@ -65,7 +65,7 @@ dvec3 HalfSpace::anchor(const Domain& domain) const {
 
 std::optional<Interval> HalfSpace::box_bounds(const Domain& domain, const CentredBox& box) const {
   const dvec3& normal = domain.to_local.linear[2];
-  const double d = dot(normal, box.centre - domain.anchor), reach = dot(abs(normal), box.half);
+  const double d = dot(normal, box.centre - domain.anchor), reach = dot(absolute(normal), box.half);
   return Interval{d - reach, d + reach};
 }
 

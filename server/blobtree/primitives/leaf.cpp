@@ -104,7 +104,7 @@ absl::StatusOr<Leaf> place_leaf(const Primitive& primitive, const Affine& to_wor
 }
 
 Interval distance_bounds(const Leaf& leaf, const CentredBox& box) {
-  const dvec3 c = abs(box.centre);
+  const dvec3 c = absolute(box.centre);
   const double size = std::max({c.x, c.y, c.z, box.radius}) * leaf.domain.stretch;
   return std::visit(
       [&]<class S>(const S& shape) {

@@ -109,7 +109,7 @@ void Segment::write(const Domain& domain, Slope slope, Operand operand, Float4* 
 std::optional<Interval> Segment::box_bounds(const Domain& domain, const CentredBox& box) const {
   if (!domain.is_rigid) return std::nullopt;
   const NearestSphere sphere = nearest_sphere(*this, domain, box.centre);
-  const dvec3 v = abs(sphere.offset);
+  const dvec3 v = absolute(sphere.offset);
   const double m = glm::length(v), d = m - sphere.radius;
   // The distance is convex and lies above its tangent plane; no sphere of the cone is nearer than it is.
   const double fall = m > kLeastOffset * box.radius ? dot(v, box.half) / m : box.radius;

@@ -19,9 +19,6 @@ Sphere Sphere::scaled(double factor) const {
 double Sphere::largest() const {
   return radius;
 }
-double Sphere::own_lengths() const {
-  return radius;
-}
 double Sphere::least_radius() const {
   return radius;
 }

@@ -23,7 +23,7 @@ struct Sphere {
   }
   Sphere scaled(double factor) const;
   double largest() const;
-  double own_lengths() const;
+  double own_lengths() const { return radius; }
   double least_radius() const;
   double area() const;
   double growth() const;
@@ -36,7 +36,7 @@ struct Sphere {
 // Most scenes are of spheres, and culling asks this of each brick: the call costs as much as what it does.
 inline std::optional<Interval> Sphere::box_bounds(const Domain& domain, const CentredBox& box) const {
   if (!domain.is_rigid) return std::nullopt;
-  const dvec3 v = abs(box.centre - domain.anchor), n = v - box.half;
+  const dvec3 v = absolute(box.centre - domain.anchor), n = v - box.half;
   const dvec3 nearest{std::max(n.x, 0.0), std::max(n.y, 0.0), std::max(n.z, 0.0)};
   return Interval{length(nearest) - radius, length(v + box.half) - radius};
 }
