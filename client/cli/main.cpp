@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "commands/checks.h"
+#include "commands/command_line.h"
 #include "commands/context.h"
 #include "commands/usage.h"
 #include "error_report.h"
@@ -45,25 +46,26 @@ int main(int argc, char** argv) {
   app.add_option("--server", context.server, "The server's address: HOST:PORT, [IPV6]:PORT or unix:PATH")
       ->envname("ISOFIELD_SERVER")
       ->default_str("127.0.0.1:50051");
-  app.add_option("--timeout", context.timeout,
+  Command all(app);
+  all.add_option("--timeout", context.timeout,
                  "Seconds that each request may take (default: 60; meshes and large evaluations as long as they need)")
-      ->check(positive());
-  app.add_flag("--json", context.json,
+      .check(positive());
+  all.add_flag("--json", context.json,
                "Print one JSON object on the standard output, for machines, instead of words; watch prints one for "
                "each picture");
-  add_catalog_commands(app, context);
-  add_import_command(app, context);
-  add_eval_command(app, context);
-  add_mesh_command(app, context);
-  add_render_command(app, context);
-  add_watch_command(app, context);
-  add_measure_command(app, context);
-  add_ray_command(app, context);
-  add_project_command(app, context);
-  add_inside_command(app, context);
-  add_slice_command(app, context);
-  add_operator_commands(app, context);
-  add_info_command(app, context);
+  add_catalog_commands(all, context);
+  add_import_command(all, context);
+  add_eval_command(all, context);
+  add_mesh_command(all, context);
+  add_render_command(all, context);
+  add_watch_command(all, context);
+  add_measure_command(all, context);
+  add_ray_command(all, context);
+  add_project_command(all, context);
+  add_inside_command(all, context);
+  add_slice_command(all, context);
+  add_operator_commands(all, context);
+  add_info_command(all, context);
   context.server = "127.0.0.1:50051";
   const std::vector<std::string> arguments = readable_arguments(argc, argv);
   try {

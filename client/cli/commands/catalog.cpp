@@ -2,12 +2,12 @@
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_split.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "commands/catalog_listing.h"
 #include "commands/checks.h"
+#include "commands/command_line.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/scene_argument.h"
@@ -97,7 +97,7 @@ absl::Status edit(const Context& context, const std::string& name, const std::ve
 
 }  // namespace
 
-void add_catalog_commands(CLI::App& app, Context& context) {
+void add_catalog_commands(Command app, Context& context) {
   struct Arguments {
     std::string file, name;
     ImportFlags flags;
@@ -107,38 +107,38 @@ void add_catalog_commands(CLI::App& app, Context& context) {
   // The commands' callbacks live as long as the app, and so must what they read.
   const auto arguments = std::make_shared<Arguments>();
 
-  CLI::App* command = app.add_subcommand("put", "Store a scene on the server, replacing one of that name");
+  Command command = app.add_subcommand("put", "Store a scene on the server, replacing one of that name");
   command
-      ->add_option("FILE", arguments->file,
-                   "Scene (.json, .pb), or a file to import (.swc, .pdb, .cif, .xyz, .txt, .csv)")
-      ->required();
-  command->add_option("--name", arguments->name, "Name on the server (default: the file's, without its extension)");
-  arguments->flags.add_to(*command);
-  command->callback(
+      .add_option("FILE", arguments->file,
+                  "Scene (.json, .pb), or a file to import (.swc, .pdb, .cif, .xyz, .txt, .csv)")
+      .required();
+  command.add_option("--name", arguments->name, "Name on the server (default: the file's, without its extension)");
+  arguments->flags.add_to(command);
+  command.callback(
       [&context, arguments] { context.outcome = put(context, arguments->file, arguments->name, arguments->flags); });
 
   command = app.add_subcommand("ls", "List the server's scenes");
-  command->callback([&context] { context.outcome = list_catalog(context, scenes()); });
+  command.callback([&context] { context.outcome = list_catalog(context, scenes()); });
 
   command = app.add_subcommand("show", "Print a scene of the server as JSON");
-  command->add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it")->required();
-  command->callback([&context, arguments] { context.outcome = show(context, arguments->name); });
+  command.add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it").required();
+  command.callback([&context, arguments] { context.outcome = show(context, arguments->name); });
 
   command = app.add_subcommand("rm", "Delete a scene of the server");
-  command->add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it")->required();
-  command->callback([&context, arguments] { context.outcome = remove_entry(context, scenes(), arguments->name); });
+  command.add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it").required();
+  command.callback([&context, arguments] { context.outcome = remove_entry(context, scenes(), arguments->name); });
 
   command = app.add_subcommand("edit", "Change numbers of a scene on the server; all of them, or none");
-  command->add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it")->required();
+  command.add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it").required();
   command
-      ->add_option("EDITS", arguments->edits,
-                   "NODE.FIELD=NUMBER[,NUMBER..] ..., such as arm.radius=2 '#0.center=1,0,0' bar.radiusA=0.1 "
-                   "all.opening.alpha0=10. A node is its name or #i, its place in the scene from 0; a field's name is "
-                   "the one of scene.proto or of JSON")
-      ->required();
-  command->add_option("--expect-version", arguments->version, "Only when the scene has this version (default: 0, any)")
-      ->check(whole(0, UINT64_MAX));
-  command->callback([&context, arguments] {
+      .add_option("EDITS", arguments->edits,
+                  "NODE.FIELD=NUMBER[,NUMBER..] ..., such as arm.radius=2 '#0.center=1,0,0' bar.radiusA=0.1 "
+                  "all.opening.alpha0=10. A node is its name or #i, its place in the scene from 0; a field's name is "
+                  "the one of scene.proto or of JSON")
+      .required();
+  command.add_option("--expect-version", arguments->version, "Only when the scene has this version (default: 0, any)")
+      .check(whole(0, UINT64_MAX));
+  command.callback([&context, arguments] {
     context.outcome = edit(context, arguments->name, arguments->edits, arguments->version);
   });
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
+
+#include "commands/command_line.h"
 
 namespace isofield {
 
@@ -9,12 +10,12 @@ namespace isofield {
 // numbers, and their messages print the greatest double.
 
 // Accepts finite numbers above 0.
-CLI::Validator positive();
+Check positive();
 // Accepts any finite number.
-CLI::Validator number();
+Check number();
 // Accepts numbers within [least, most].
-CLI::Validator within(double least, double most);
+Check within(double least, double most);
 // Accepts whole numbers within [least, most].
-CLI::Validator whole(std::uint64_t least, std::uint64_t most);
+Check whole(std::uint64_t least, std::uint64_t most);
 
 }  // namespace isofield

@@ -5,11 +5,8 @@
 
 #include <string>
 
+#include "commands/command_line.h"
 #include "isofield/client.h"
-
-namespace CLI {
-class App;
-}
 
 namespace isofield {
 
@@ -26,20 +23,20 @@ struct Context {
 };
 
 // Each adds its commands to the command line, and runs the chosen one when it is parsed.
-void add_catalog_commands(CLI::App& app, Context& context);  // put, ls, show, rm, edit
-void add_import_command(CLI::App& app, Context& context);
-void add_eval_command(CLI::App& app, Context& context);
-void add_mesh_command(CLI::App& app, Context& context);
-void add_render_command(CLI::App& app, Context& context);
-void add_watch_command(CLI::App& app, Context& context);
-void add_measure_command(CLI::App& app, Context& context);
-void add_ray_command(CLI::App& app, Context& context);
-void add_project_command(CLI::App& app, Context& context);
-void add_inside_command(CLI::App& app, Context& context);
-void add_slice_command(CLI::App& app, Context& context);
-void add_operator_commands(CLI::App& app, Context& context);  // operator ls, show, put, rm, eval, plot, pick
-void add_operator_eval_command(CLI::App& app, Context& context);
-void add_operator_plot_command(CLI::App& app, Context& context);
-void add_info_command(CLI::App& app, Context& context);
+void add_catalog_commands(Command app, Context& context);  // put, ls, show, rm, edit
+void add_import_command(Command app, Context& context);
+void add_eval_command(Command app, Context& context);
+void add_mesh_command(Command app, Context& context);
+void add_render_command(Command app, Context& context);
+void add_watch_command(Command app, Context& context);
+void add_measure_command(Command app, Context& context);
+void add_ray_command(Command app, Context& context);
+void add_project_command(Command app, Context& context);
+void add_inside_command(Command app, Context& context);
+void add_slice_command(Command app, Context& context);
+void add_operator_commands(Command app, Context& context);  // operator ls, show, put, rm, eval, plot, pick
+void add_operator_eval_command(Command app, Context& context);
+void add_operator_plot_command(Command app, Context& context);
+void add_info_command(Command app, Context& context);
 
 }  // namespace isofield

@@ -1,9 +1,9 @@
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "commands/command_line.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/point_table.h"
@@ -71,20 +71,20 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
 
 }  // namespace
 
-void add_eval_command(CLI::App& app, Context& context) {
+void add_eval_command(Command app, Context& context) {
   const auto arguments = std::make_shared<EvalArguments>();
-  CLI::App* command = app.add_subcommand("eval", "Evaluate the field, and its gradient, at points");
-  command->add_option("SCENE", arguments->scene, "A file, or else a name on the server")->required();
-  command->add_option("--points", arguments->points, kPointsHelp)->required();
-  command->add_flag("--gradient", arguments->gradient, "The gradient too");
-  command->add_flag("--shared-memory", arguments->shared_memory,
-                    "Points and results through memory shared with the server, where it offers that");
+  Command command = app.add_subcommand("eval", "Evaluate the field, and its gradient, at points");
+  command.add_option("SCENE", arguments->scene, "A file, or else a name on the server").required();
+  command.add_option("--points", arguments->points, kPointsHelp).required();
+  command.add_flag("--gradient", arguments->gradient, "The gradient too");
+  command.add_flag("--shared-memory", arguments->shared_memory,
+                   "Points and results through memory shared with the server, where it offers that");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Text x,y,z,value[,gx,gy,gz] (.csv), or a NumPy array (n, 1 or 4) (.npy); - is the standard output")
-      ->capture_default_str();
-  arguments->flags.add_to(*command);
-  command->callback([&context, arguments] { context.outcome = evaluate(context, *arguments); });
+      .add_option("-o,--output", arguments->output,
+                  "Text x,y,z,value[,gx,gy,gz] (.csv), or a NumPy array (n, 1 or 4) (.npy); - is the standard output")
+      .shows_default();
+  arguments->flags.add_to(command);
+  command.callback([&context, arguments] { context.outcome = evaluate(context, *arguments); });
 }
 
 }  // namespace isofield

@@ -1,9 +1,9 @@
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "commands/command_line.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/scene_argument.h"
@@ -45,22 +45,22 @@ absl::Status import(const Context& context, const std::string& path, const std::
 
 }  // namespace
 
-void add_import_command(CLI::App& app, Context& context) {
+void add_import_command(Command app, Context& context) {
   struct Arguments {
     std::string file, output = "-";
     ImportFlags flags;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("import", "Make a scene of a neuron, a molecule or points; needs no server");
+  Command command = app.add_subcommand("import", "Make a scene of a neuron, a molecule or points; needs no server");
   command
-      ->add_option("FILE", arguments->file,
-                   "Neuron (.swc), molecule (.pdb, .cif, .xyz) or points, one \"x y z\" a line (.xyz, .txt, .csv); "
-                   "also packed (.gz)")
-      ->required();
-  command->add_option("-o,--output", arguments->output, "Scene to write (.json, .pb); - is the standard output")
-      ->capture_default_str();
-  arguments->flags.add_to(*command);
-  command->callback([&context, arguments] {
+      .add_option("FILE", arguments->file,
+                  "Neuron (.swc), molecule (.pdb, .cif, .xyz) or points, one \"x y z\" a line (.xyz, .txt, .csv); "
+                  "also packed (.gz)")
+      .required();
+  command.add_option("-o,--output", arguments->output, "Scene to write (.json, .pb); - is the standard output")
+      .shows_default();
+  arguments->flags.add_to(command);
+  command.callback([&context, arguments] {
     context.outcome = import(context, arguments->file, arguments->output, arguments->flags);
   });
 }

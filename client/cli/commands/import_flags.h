@@ -2,11 +2,8 @@
 
 #include <string>
 
+#include "commands/command_line.h"
 #include "isofield/import.h"
-
-namespace CLI {
-class App;
-}
 
 namespace isofield {
 
@@ -15,7 +12,7 @@ struct ImportFlags {
   std::string op = "camel";
   ImportOptions options;
 
-  void add_to(CLI::App& command);
+  void add_to(Command command);
   // After parsing.
   ImportOptions get() const;
 };

@@ -1,8 +1,8 @@
 #include <absl/strings/str_format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "commands/command_line.h"
 #include "commands/context.h"
 #include "json_output.h"
 
@@ -57,11 +57,11 @@ absl::Status info(const Context& context, bool of_device) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, Context& context) {
-  auto* const command = app.add_subcommand("info", "Tell what the server is, what it admits and what it holds");
+void add_info_command(Command app, Context& context) {
+  Command command = app.add_subcommand("info", "Tell what the server is, what it admits and what it holds");
   const auto of_device = std::make_shared<bool>(false);
-  command->add_flag("--device", *of_device, "Tell of the device alone, with the numbers that fit the work to it");
-  command->callback([&context, of_device] { context.outcome = info(context, *of_device); });
+  command.add_flag("--device", *of_device, "Tell of the device alone, with the numbers that fit the work to it");
+  command.callback([&context, of_device] { context.outcome = info(context, *of_device); });
 }
 
 }  // namespace isofield

@@ -1,8 +1,8 @@
 #include <absl/strings/str_format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "commands/command_line.h"
 #include "commands/mesh_flags.h"
 #include "json_output.h"
 
@@ -37,13 +37,13 @@ absl::Status measure(const Context& context, const MeshFlags& flags) {
 
 }  // namespace
 
-void add_measure_command(CLI::App& app, Context& context) {
+void add_measure_command(Command app, Context& context) {
   const auto flags = std::make_shared<MeshFlags>();
   flags->omit_normals = true;
-  CLI::App* command =
+  Command command =
       app.add_subcommand("measure", "Area, volume, centroid, bounds, bodies and voids of the surface's mesh");
-  flags->add_to(*command);
-  command->callback([&context, flags] { context.outcome = measure(context, *flags); });
+  flags->add_to(command);
+  command.callback([&context, flags] { context.outcome = measure(context, *flags); });
 }
 
 }  // namespace isofield

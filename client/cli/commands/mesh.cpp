@@ -1,11 +1,11 @@
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
 
 #include "commands/checks.h"
+#include "commands/command_line.h"
 #include "commands/mesh_flags.h"
 #include "commands/scene_argument.h"
 #include "exit_codes.h"
@@ -108,24 +108,24 @@ absl::Status mesh(const Context& context, const Arguments& arguments) {
 
 }  // namespace
 
-void add_mesh_command(CLI::App& app, Context& context) {
+void add_mesh_command(Command app, Context& context) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("mesh", "Mesh the surface into a file");
-  arguments->flags.add_to(*command);
-  command->add_option("-o,--output", arguments->output, "Mesh to write (.glb, .obj, .ply, .stl)")->required();
-  command->add_flag("--no-normals", arguments->flags.omit_normals, "Leave the normals out");
-  command->add_flag("--smooth-creases", arguments->smooth_creases,
-                    "One normal a vertex, on creases too (default: one for each side, in .glb and .obj)");
-  auto* const units = command->add_option(
+  Command command = app.add_subcommand("mesh", "Mesh the surface into a file");
+  arguments->flags.add_to(command);
+  command.add_option("-o,--output", arguments->output, "Mesh to write (.glb, .obj, .ply, .stl)").required();
+  command.add_flag("--no-normals", arguments->flags.omit_normals, "Leave the normals out");
+  command.add_flag("--smooth-creases", arguments->smooth_creases,
+                   "One normal a vertex, on creases too (default: one for each side, in .glb and .obj)");
+  const Option units = command.add_option(
       "--units", arguments->units,
       "Unit of the file's coordinates, such as mm or \"8 nm\" (default: the scene's own; .glb: metres)");
   command
-      ->add_option("--scale", arguments->scale,
-                   "Factor from model units to the file's coordinates, whatever the scene's unit (default: 1; .glb: "
-                   "metres in the scene's unit)")
-      ->check(positive())
-      ->excludes(units);
-  command->callback([&context, arguments] { context.outcome = mesh(context, *arguments); });
+      .add_option("--scale", arguments->scale,
+                  "Factor from model units to the file's coordinates, whatever the scene's unit (default: 1; .glb: "
+                  "metres in the scene's unit)")
+      .check(positive())
+      .excludes(units);
+  command.callback([&context, arguments] { context.outcome = mesh(context, *arguments); });
 }
 
 }  // namespace isofield

@@ -4,7 +4,6 @@
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 
 #include "commands/checks.h"
@@ -13,34 +12,34 @@
 
 namespace isofield {
 
-void MeshFlags::add_to(CLI::App& command) {
-  command.add_option("SCENE", scene, "A file, or else a name on the server")->required();
-  auto* cell_option =
+void MeshFlags::add_to(Command command) {
+  command.add_option("SCENE", scene, "A file, or else a name on the server").required();
+  Option cell_option =
       command
           .add_option("--cell", cell,
                       "Edge length of a cell, in model units (default: chosen by the server after the thinnest part)")
-          ->check(positive());
+          .check(positive());
   command.add_option("--resolution", resolution, "Cells along the longest edge of the bounds")
-      ->check(whole(1, 1048576))
-      ->excludes(cell_option);
+      .check(whole(1, 1048576))
+      .excludes(cell_option);
   command
-      .add_option("--bounds", bounds,
-                  "x0,y0,z0,x1,y1,z1: the box to mesh, in model units (default: all of the scene)")
-      ->check(number())
-      ->delimiter(',')
-      ->expected(6);
-  command.add_option("--iso", iso,
-                     "Iso value of the surface: within ]0, 1[ of a positive field (default: 0.5), any of a signed one "
-                     "(default: 0)")
-      ->check(number());
+      .add_option("--bounds", bounds, "x0,y0,z0,x1,y1,z1: the box to mesh, in model units (default: all of the scene)")
+      .check(number())
+      .delimiter(',')
+      .expected(6);
+  command
+      .add_option("--iso", iso,
+                  "Iso value of the surface: within ]0, 1[ of a positive field (default: 0.5), any of a signed one "
+                  "(default: 0)")
+      .check(number());
   command
       .add_option("--tolerance", tolerance,
                   "How far off the surface vertices may be left, in cells, within [1e-5, 0.1] (default: 1e-3)")
-      ->check(within(1e-5, 0.1));
+      .check(within(1e-5, 0.1));
   command
       .add_option("--simplify", simplify,
                   "Fewer triangles, within this distance of the mesh, in model units (default: all of them)")
-      ->check(positive());
+      .check(positive());
   command.add_flag("--largest", largest_body, "Keep only the body that encloses most, with its voids");
   command.add_flag("--fill-voids", fill_voids, "Leave out voids, and what floats inside of them");
   import.add_to(command);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/command_line.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/mesh_report.h"
@@ -24,7 +25,7 @@ struct MeshFlags {
   bool crease_normals = false;
   ImportFlags import;
 
-  void add_to(CLI::App& command);
+  void add_to(Command command);
   // The request that the options make, without sending it.
   absl::StatusOr<v1::MeshRequest> message() const;
   // Sends the request, and shows a progress line on a terminal. `seconds` is the time from the request to the last

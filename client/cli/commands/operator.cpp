@@ -2,12 +2,12 @@
 #include <absl/strings/str_format.h>
 #include <absl/strings/str_join.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "commands/catalog_listing.h"
 #include "commands/checks.h"
+#include "commands/command_line.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/scene_argument.h"
@@ -118,47 +118,47 @@ absl::Status pick(const Context& context, const PickArguments& arguments) {
 
 }  // namespace
 
-void add_operator_commands(CLI::App& app, Context& context) {
+void add_operator_commands(Command app, Context& context) {
   struct Arguments {
     std::string file, name;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* all = app.add_subcommand("operator", "Composition operators: keep, evaluate and draw them");
-  all->require_subcommand(1);
+  Command all = app.add_subcommand("operator", "Composition operators: keep, evaluate and draw them");
+  all.require_subcommand();
 
-  CLI::App* command = all->add_subcommand("ls", "List the built-in operators and the server's custom ones");
-  command->callback([&context] { context.outcome = list_catalog(context, operators()); });
+  Command command = all.add_subcommand("ls", "List the built-in operators and the server's custom ones");
+  command.callback([&context] { context.outcome = list_catalog(context, operators()); });
 
-  command = all->add_subcommand(
+  command = all.add_subcommand(
       "show", "Print an operator as JSON, and on the standard error what its parameters accept and their defaults");
-  command->add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it")->required();
-  command->callback([&context, arguments] { context.outcome = show(context, arguments->name); });
+  command.add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it").required();
+  command.callback([&context, arguments] { context.outcome = show(context, arguments->name); });
 
-  command = all->add_subcommand("put", "Store a custom operator on the server, replacing one of that name");
-  command->add_option("FILE", arguments->file, "Operator (.json, .pb)")->required();
-  command->add_option("--name", arguments->name, "Name on the server (default: the file's, without its extension)");
-  command->callback([&context, arguments] { context.outcome = put(context, arguments->file, arguments->name); });
+  command = all.add_subcommand("put", "Store a custom operator on the server, replacing one of that name");
+  command.add_option("FILE", arguments->file, "Operator (.json, .pb)").required();
+  command.add_option("--name", arguments->name, "Name on the server (default: the file's, without its extension)");
+  command.callback([&context, arguments] { context.outcome = put(context, arguments->file, arguments->name); });
 
-  command = all->add_subcommand("rm", "Delete a custom operator of the server; scenes keep it");
-  command->add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it")->required();
-  command->callback([&context, arguments] { context.outcome = remove_entry(context, operators(), arguments->name); });
+  command = all.add_subcommand("rm", "Delete a custom operator of the server; scenes keep it");
+  command.add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it").required();
+  command.callback([&context, arguments] { context.outcome = remove_entry(context, operators(), arguments->name); });
 
-  add_operator_eval_command(*all, context);
-  add_operator_plot_command(*all, context);
+  add_operator_eval_command(all, context);
+  add_operator_plot_command(all, context);
 
   const auto picked = std::make_shared<PickArguments>();
-  command = all->add_subcommand(
+  command = all.add_subcommand(
       "pick",
       "Tell the opening angle at which the blend of a node's two children would begin at a point of the first one's "
       "surface");
-  command->add_option("SCENE", picked->scene, "A file, or else a name on the server")->required();
-  command->add_option("NODE", picked->node, "A node of two children, by name or #i")->required();
-  command->add_option("X", picked->point[0], "A point X Y Z of the first child's surface, in the node's own frame")
-      ->check(number())
-      ->required();
-  command->add_option("Y", picked->point[1], "Its second coordinate")->check(number())->required();
-  command->add_option("Z", picked->point[2], "Its third coordinate")->check(number())->required();
-  command->callback([&context, picked] { context.outcome = pick(context, *picked); });
+  command.add_option("SCENE", picked->scene, "A file, or else a name on the server").required();
+  command.add_option("NODE", picked->node, "A node of two children, by name or #i").required();
+  command.add_option("X", picked->point[0], "A point X Y Z of the first child's surface, in the node's own frame")
+      .check(number())
+      .required();
+  command.add_option("Y", picked->point[1], "Its second coordinate").check(number()).required();
+  command.add_option("Z", picked->point[2], "Its third coordinate").check(number()).required();
+  command.callback([&context, picked] { context.outcome = pick(context, *picked); });
 }
 
 }  // namespace isofield

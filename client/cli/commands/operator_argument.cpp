@@ -1,7 +1,5 @@
 #include "commands/operator_argument.h"
 
-#include <CLI/CLI.hpp>
-
 #include "exit_codes.h"
 #include "operators/parameters.h"
 
@@ -28,13 +26,13 @@ const FieldDescriptor* built_in(const std::string& name) {
 
 }  // namespace
 
-void OperatorArgument::add_to(CLI::App& command) {
-  command.add_option("NAME", name, "A built-in operator, a custom one of the server, or \"opening\"")->required();
+void OperatorArgument::add_to(Command command) {
+  command.add_option("NAME", name, "A built-in operator, a custom one of the server, or \"opening\"").required();
   command
       .add_option("--param", parameters,
                   "NAME=VALUE: a field of the operator, or of its opening or silhouette (`operator show` lists them). "
                   "Once for each: --param silhouette=bulge --param k=0.8")
-      ->allow_extra_args(false);
+      .one_argument_each();
 }
 
 absl::StatusOr<ChosenOperator> choose_operator(const OperatorArgument& argument, Client& client) {

@@ -5,11 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "commands/command_line.h"
 #include "commands/context.h"
-
-namespace CLI {
-class App;
-}
 
 namespace isofield {
 
@@ -18,7 +15,7 @@ struct OperatorArgument {
   std::string name;
   std::vector<std::string> parameters;
 
-  void add_to(CLI::App& command);
+  void add_to(Command command);
   bool is_opening() const { return name == "opening"; }
 };
 

@@ -1,11 +1,11 @@
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_join.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <memory>
 
+#include "commands/command_line.h"
 #include "commands/operator_argument.h"
 #include "excerpt.h"
 #include "exit_codes.h"
@@ -91,19 +91,19 @@ absl::Status evaluate(const Context& context, const EvalArguments& arguments) {
 
 }  // namespace
 
-void add_operator_eval_command(CLI::App& app, Context& context) {
+void add_operator_eval_command(Command app, Context& context) {
   const auto arguments = std::make_shared<EvalArguments>();
-  CLI::App* command = app.add_subcommand("eval", "Evaluate an operator and its partial derivatives at field values");
-  arguments->op.add_to(*command);
+  Command command = app.add_subcommand("eval", "Evaluate an operator and its partial derivatives at field values");
+  arguments->op.add_to(command);
   command
-      ->add_option(
+      .add_option(
           "--points", arguments->points,
           "Text with a header line (.csv): columns f1,f2 [and theta or alpha], or x1,x2 ... [and alpha, ratio], "
           "or alpha for an opening; angles in radians; others are ignored; - is the standard input")
-      ->required();
-  command->add_option("-o,--output", arguments->output, "Text with a row a point (.csv); - is the standard output")
-      ->capture_default_str();
-  command->callback([&context, arguments] { context.outcome = evaluate(context, *arguments); });
+      .required();
+  command.add_option("-o,--output", arguments->output, "Text with a row a point (.csv); - is the standard output")
+      .shows_default();
+  command.callback([&context, arguments] { context.outcome = evaluate(context, *arguments); });
 }
 
 }  // namespace isofield

@@ -3,13 +3,13 @@
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
 #include "commands/checks.h"
+#include "commands/command_line.h"
 #include "commands/operator_argument.h"
 #include "exit_codes.h"
 #include "json_output.h"
@@ -281,26 +281,26 @@ absl::Status plot(const Context& context, const PlotArguments& arguments) {
 
 }  // namespace
 
-void add_operator_plot_command(CLI::App& app, Context& context) {
+void add_operator_plot_command(Command app, Context& context) {
   const auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command = app.add_subcommand("plot", "Draw an operator's level curves, or openings");
-  arguments->op.add_to(*command);
-  command->add_option("-o,--output", arguments->output, "Picture to write (.png, .svg or .pdf)")->required();
-  auto* thetas = command->add_option("--theta", arguments->thetas, "Opening angles in degrees, a panel each")
-                     ->delimiter(',')
-                     ->allow_extra_args(false)
-                     ->check(within(0.0, 45.0))
-                     ->expected(1, 16);
-  command->add_option("--alpha", arguments->alphas, "Instead: angles between the gradients in degrees, a panel each")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(within(0.0, 180.0))
-      ->expected(1, 16)
-      ->excludes(thetas);
-  command->add_option("--size", arguments->size, "Side of a panel in pixels; in .svg and .pdf 96 are an inch")
-      ->check(whole(64, 2048))
-      ->capture_default_str();
-  command->callback([&context, arguments] { context.outcome = plot(context, *arguments); });
+  Command command = app.add_subcommand("plot", "Draw an operator's level curves, or openings");
+  arguments->op.add_to(command);
+  command.add_option("-o,--output", arguments->output, "Picture to write (.png, .svg or .pdf)").required();
+  Option thetas = command.add_option("--theta", arguments->thetas, "Opening angles in degrees, a panel each")
+                      .delimiter(',')
+                      .one_argument_each()
+                      .check(within(0.0, 45.0))
+                      .expected(1, 16);
+  command.add_option("--alpha", arguments->alphas, "Instead: angles between the gradients in degrees, a panel each")
+      .delimiter(',')
+      .one_argument_each()
+      .check(within(0.0, 180.0))
+      .expected(1, 16)
+      .excludes(thetas);
+  command.add_option("--size", arguments->size, "Side of a panel in pixels; in .svg and .pdf 96 are an inch")
+      .check(whole(64, 2048))
+      .shows_default();
+  command.callback([&context, arguments] { context.outcome = plot(context, *arguments); });
 }
 
 }  // namespace isofield

@@ -5,7 +5,6 @@
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 
 #include "exit_codes.h"
@@ -28,12 +27,11 @@ absl::Status parse_size(const std::string& text, RenderOptions& options) {
 
 }  // namespace
 
-void PictureFlags::add_to(CLI::App& command) {
+void PictureFlags::add_to(Command command) {
   mesh.crease_normals = true;
   mesh.add_to(command);
-  command.add_option("-o,--output", output, "Picture to write (.png)")->required();
-  command.add_option("--size", size, "WIDTHxHEIGHT of the picture in pixels, each within [16, 8192]")
-      ->capture_default_str();
+  command.add_option("-o,--output", output, "Picture to write (.png)").required();
+  command.add_option("--size", size, "WIDTHxHEIGHT of the picture in pixels, each within [16, 8192]").shows_default();
   view.add_to(command);
 }
 

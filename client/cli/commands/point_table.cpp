@@ -1,6 +1,5 @@
 #include "commands/point_table.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "commands/checks.h"
@@ -12,18 +11,19 @@
 
 namespace isofield {
 
-void PointTableArguments::add_to(CLI::App& command, const std::string& points_name) {
-  command.add_option("SCENE", scene, "A file, or else a name on the server")->required();
-  command.add_option(points_name, points, kPointsHelp)->required();
-  command.add_option("--iso", iso,
-                     "Iso value of the surface: within ]0, 1[ of a positive field (default: 0.5), any of a signed one "
-                     "(default: 0)")
-      ->check(number());
+void PointTableArguments::add_to(Command command, const std::string& points_name) {
+  command.add_option("SCENE", scene, "A file, or else a name on the server").required();
+  command.add_option(points_name, points, kPointsHelp).required();
+  command
+      .add_option("--iso", iso,
+                  "Iso value of the surface: within ]0, 1[ of a positive field (default: 0.5), any of a signed one "
+                  "(default: 0)")
+      .check(number());
   command
       .add_option("-o,--output", output,
                   "Text with a header (.csv), a NumPy array of structures with a field a column of numbers (.npy), or "
                   "an object of arrays (.json); - is the standard output")
-      ->capture_default_str();
+      .shows_default();
   flags.add_to(command);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/command_line.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "points/table.h"
@@ -22,7 +23,7 @@ struct PointTableArguments {
   ImportFlags flags;
 
   // `points_name` is the option that names the file of points.
-  void add_to(CLI::App& command, const std::string& points_name);
+  void add_to(Command command, const std::string& points_name);
 };
 
 // Reads all points of a file, [n, 3], and adds the reader's notes to `notes`.

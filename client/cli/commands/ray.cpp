@@ -1,10 +1,10 @@
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "commands/checks.h"
+#include "commands/command_line.h"
 #include "commands/point_table.h"
 #include "exit_codes.h"
 
@@ -58,35 +58,34 @@ absl::Status cast(Client& client, const v1::SceneRef& scene, const RayArguments&
 
 }  // namespace
 
-void add_ray_command(CLI::App& app, Context& context) {
+void add_ray_command(Command app, Context& context) {
   const auto arguments = std::make_shared<RayArguments>();
-  CLI::App* command = app.add_subcommand(
+  Command command = app.add_subcommand(
       "ray", "Find where rays first meet the surface: distance (inf: nowhere),x,y,z,nx,ny,nz,inside,node");
-  arguments->add_to(*command, "--origins");
-  auto* each = command->add_option("--directions", arguments->directions,
+  arguments->add_to(command, "--origins");
+  Option each = command.add_option("--directions", arguments->directions,
                                    "A direction for each origin, of any length but 0: columns dx, dy, dz, or the "
                                    "normals nx, ny, nz, or x, y, z. A file that has the origins too names them ox, oy, "
                                    "oz, or has six columns without names");
-  command->add_option("--direction", arguments->direction, "x,y,z: one direction for all rays, of any length but 0")
-      ->check(number())
-      ->delimiter(',')
-      ->expected(3)
-      ->excludes(each);
+  command.add_option("--direction", arguments->direction, "x,y,z: one direction for all rays, of any length but 0")
+      .check(number())
+      .delimiter(',')
+      .expected(3)
+      .excludes(each);
   command
-      ->add_option("--max-distance", arguments->max_distance,
-                   "Where the rays end, in model units from their origins (default: nowhere)")
-      ->check(positive());
+      .add_option("--max-distance", arguments->max_distance,
+                  "Where the rays end, in model units from their origins (default: nowhere)")
+      .check(positive());
   command
-      ->add_option("--cell", arguments->cell,
-                   "What is thinner than this along a ray may be missed, in model units (default: chosen by the "
-                   "server after the thinnest part)")
-      ->check(positive());
-  command
-      ->add_option("--bounds", arguments->bounds, "x0,y0,z0,x1,y1,z1 in model units: where the surface is looked for")
-      ->check(number())
-      ->delimiter(',')
-      ->expected(6);
-  command->callback([&context, arguments] {
+      .add_option("--cell", arguments->cell,
+                  "What is thinner than this along a ray may be missed, in model units (default: chosen by the "
+                  "server after the thinnest part)")
+      .check(positive());
+  command.add_option("--bounds", arguments->bounds, "x0,y0,z0,x1,y1,z1 in model units: where the surface is looked for")
+      .check(number())
+      .delimiter(',')
+      .expected(6);
+  command.callback([&context, arguments] {
     if (arguments->directions.empty() && arguments->direction.empty()) {
       context.outcome = usage_error("the rays have no direction; state --directions FILE or --direction x,y,z");
       return;
@@ -95,13 +94,11 @@ void add_ray_command(CLI::App& app, Context& context) {
       context.outcome = usage_error("--origins - --directions -: the standard input can be read once; name a file");
       return;
     }
-    context.outcome =
-        answer_points(context, *arguments,
-                      [&](Client& client, const v1::SceneRef& scene, std::span<const float> origins, Table& table,
-                          std::vector<std::string>& notes) {
-                        return cast(client, scene, *arguments, origins, table, notes);
-                      },
-                      {VectorRole::kOrigin});
+    context.outcome = answer_points(
+        context, *arguments,
+        [&](Client& client, const v1::SceneRef& scene, std::span<const float> origins, Table& table,
+            std::vector<std::string>& notes) { return cast(client, scene, *arguments, origins, table, notes); },
+        {VectorRole::kOrigin});
   });
 }
 

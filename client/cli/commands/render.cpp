@@ -1,6 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "commands/command_line.h"
 #include "commands/picture.h"
 
 namespace isofield {
@@ -15,11 +15,11 @@ absl::Status render_scene(const Context& context, const PictureFlags& flags) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app, Context& context) {
+void add_render_command(Command app, Context& context) {
   const auto flags = std::make_shared<PictureFlags>();
-  CLI::App* command = app.add_subcommand("render", "Mesh the surface and draw a picture of it; y is up");
-  flags->add_to(*command);
-  command->callback([&context, flags] { context.outcome = render_scene(context, *flags); });
+  Command command = app.add_subcommand("render", "Mesh the surface and draw a picture of it; y is up");
+  flags->add_to(command);
+  command.callback([&context, flags] { context.outcome = render_scene(context, *flags); });
 }
 
 }  // namespace isofield

@@ -1,10 +1,10 @@
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "commands/checks.h"
+#include "commands/command_line.h"
 #include "commands/context.h"
 #include "commands/import_flags.h"
 #include "commands/scene_argument.h"
@@ -98,57 +98,56 @@ absl::Status slice_scene(const Context& context, const SliceArguments& arguments
 
 }  // namespace
 
-void add_slice_command(CLI::App& app, Context& context) {
+void add_slice_command(Command app, Context& context) {
   const auto arguments = std::make_shared<SliceArguments>();
-  CLI::App* command = app.add_subcommand(
+  Command command = app.add_subcommand(
       "slice",
       "Evaluate the field on a part of a plane, and draw it. By default that is the plane of normal z through the "
       "middle of the box that holds the field's support, over the whole box");
-  command->add_option("SCENE", arguments->scene, "A file, or else a name on the server")->required();
+  command.add_option("SCENE", arguments->scene, "A file, or else a name on the server").required();
   command
-      ->add_option("--origin", arguments->origin,
-                   "x,y,z in model units: the first sample, lower left in a picture (default: so that the middle of "
-                   "the samples is the middle of the box)")
-      ->check(number())
-      ->delimiter(',')
-      ->expected(3);
-  command->add_option("--u", arguments->u, "x,y,z: the direction to the right in a picture (default: 1,0,0)")
-      ->check(number())
-      ->delimiter(',')
-      ->expected(3);
+      .add_option("--origin", arguments->origin,
+                  "x,y,z in model units: the first sample, lower left in a picture (default: so that the middle of "
+                  "the samples is the middle of the box)")
+      .check(number())
+      .delimiter(',')
+      .expected(3);
+  command.add_option("--u", arguments->u, "x,y,z: the direction to the right in a picture (default: 1,0,0)")
+      .check(number())
+      .delimiter(',')
+      .expected(3);
+  command.add_option("--v", arguments->v, "x,y,z: the direction upwards (default: 0,1,0); made at right angles to u")
+      .check(number())
+      .delimiter(',')
+      .expected(3);
   command
-      ->add_option("--v", arguments->v, "x,y,z: the direction upwards (default: 0,1,0); made at right angles to u")
-      ->check(number())
-      ->delimiter(',')
-      ->expected(3);
+      .add_option("--spacing", arguments->spacing,
+                  "Model units between samples, for both axes or each (default: so that the samples span the box)")
+      .check(positive())
+      .delimiter(',')
+      .expected(1, 2);
   command
-      ->add_option("--spacing", arguments->spacing,
-                   "Model units between samples, for both axes or each (default: so that the samples span the box)")
-      ->check(positive())
-      ->delimiter(',')
-      ->expected(1, 2);
+      .add_option("--counts", arguments->counts,
+                  "Samples along u,v (default: as many as span the box; without --spacing 512 along the longer axis)")
+      .check(whole(1, std::uint64_t{1} << 32))
+      .delimiter(',')
+      .expected(2);
   command
-      ->add_option("--counts", arguments->counts,
-                   "Samples along u,v (default: as many as span the box; without --spacing 512 along the longer axis)")
-      ->check(whole(1, std::uint64_t{1} << 32))
-      ->delimiter(',')
-      ->expected(2);
+      .add_option("--levels", arguments->levels,
+                  "Values whose curves a picture shows, the first one heavily (default: the surface's)")
+      .check(number())
+      .delimiter(',');
   command
-      ->add_option("--levels", arguments->levels,
-                   "Values whose curves a picture shows, the first one heavily (default: the surface's)")
-      ->check(number())
-      ->delimiter(',');
-  command
-      ->add_option(
+      .add_option(
           "-o,--output", arguments->output,
           "Picture (.png, .svg, .pdf), NumPy array (counts[1], counts[0]) (.npy), or u,v,value as text (.csv) or an "
           "object of arrays (.json), u and v from the first sample; - is text on the standard output")
-      ->required();
-  command->add_option("--size", arguments->size, "Pixels of a picture's longer side; in .svg and .pdf 96 are an inch")
-      ->check(whole(64, 8192))
-      ->capture_default_str();
-  arguments->flags.add_to(*command);
-  command->callback([&context, arguments] { context.outcome = slice_scene(context, *arguments); });
+      .required();
+  command.add_option("--size", arguments->size, "Pixels of a picture's longer side; in .svg and .pdf 96 are an inch")
+      .check(whole(64, 8192))
+      .shows_default();
+  arguments->flags.add_to(command);
+  command.callback([&context, arguments] { context.outcome = slice_scene(context, *arguments); });
 }
 
 }  // namespace isofield

@@ -2,7 +2,6 @@
 
 #include <absl/strings/str_cat.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -39,46 +38,46 @@ glm::dvec3 to_vector(const std::vector<double>& v) {
 
 }  // namespace
 
-void ViewFlags::add_to(CLI::App& command) {
+void ViewFlags::add_to(Command command) {
   constexpr char kGroup[] = "View";
   std::vector<std::string> names;
   for (const auto& side : sides()) names.push_back(side.first);
   command.add_option("--view", side_, "The side to look from (default: corner, azimuth 35 and elevation 20)")
-      ->check(CLI::IsMember(names))
-      ->group(kGroup);
+      .one_of(names)
+      .group(kGroup);
   command.add_option("--azimuth", azimuth_, "Degrees around y: 0 looks from the front, 90 from the right side")
-      ->check(within(-360, 360))
-      ->group(kGroup);
+      .check(within(-360, 360))
+      .group(kGroup);
   command.add_option("--elevation", elevation_, "Degrees above the horizon from which to look")
-      ->check(within(-90, 90))
-      ->group(kGroup);
+      .check(within(-90, 90))
+      .group(kGroup);
   command.add_option("--up", up_, "x,y,z: what is upwards in the picture (default: 0,1,0)")
-      ->check(number())
-      ->delimiter(',')
-      ->expected(3)
-      ->group(kGroup);
+      .check(number())
+      .delimiter(',')
+      .expected(3)
+      .group(kGroup);
   command
       .add_option("--target", target_,
                   "x,y,z in model units: the point in the picture's middle (default: so that the model fills it)")
-      ->check(number())
-      ->delimiter(',')
-      ->expected(3)
-      ->group(kGroup);
+      .check(number())
+      .delimiter(',')
+      .expected(3)
+      .group(kGroup);
   command
       .add_option("--distance", distance_,
                   "From the camera to its target, in model units (default: so that the model fills the picture)")
-      ->check(positive())
-      ->group(kGroup);
+      .check(positive())
+      .group(kGroup);
   command
       .add_option("--field-of-view", field_of_view_,
                   "Degrees: the whole opening angle along the picture's shorter edge (default: 28)")
-      ->check(within(1, 150))
-      ->group(kGroup);
+      .check(within(1, 150))
+      .group(kGroup);
   command
       .add_option("--view-file", file_,
                   "A JSON file that keeps the camera: target, distance, direction, up and field_of_view. Read where "
                   "it is there; options override it; what the picture was taken with is written back")
-      ->group(kGroup);
+      .group(kGroup);
 }
 
 absl::StatusOr<View> ViewFlags::view() const {

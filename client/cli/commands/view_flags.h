@@ -6,18 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "commands/command_line.h"
 #include "render/camera.h"
-
-namespace CLI {
-class App;
-}
 
 namespace isofield {
 
 // The options that say from where a picture is taken, and the file that keeps these settings.
 class ViewFlags {
  public:
-  void add_to(CLI::App& command);
+  void add_to(Command command);
 
   // The view of the file, if there is one, with the options overriding it. Faults of the file are file errors, others
   // are errors of usage.

@@ -1,10 +1,10 @@
 #include <absl/strings/str_cat.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
+#include "commands/command_line.h"
 #include "commands/picture.h"
 #include "error_report.h"
 #include "exit_codes.h"
@@ -40,15 +40,15 @@ absl::Status watch(const Context& context, const PictureFlags& flags) {
 
 }  // namespace
 
-void add_watch_command(CLI::App& app, Context& context) {
+void add_watch_command(Command app, Context& context) {
   const auto flags = std::make_shared<PictureFlags>();
-  CLI::App* command = app.add_subcommand(
+  Command command = app.add_subcommand(
       "watch",
       "Draw a picture of a file, and again whenever the file changes, until SIGINT (Ctrl-C) or SIGTERM. Faults of the "
       "file are printed, and the picture stays as it is. Without --view-file the model fills each picture");
-  flags->add_to(*command);
-  command->get_option("SCENE")->description("A file: a scene (.json, .pb), or one that can be imported, such as .swc");
-  command->callback([&context, flags] { context.outcome = watch(context, *flags); });
+  flags->add_to(command);
+  command.option("SCENE").description("A file: a scene (.json, .pb), or one that can be imported, such as .swc");
+  command.callback([&context, flags] { context.outcome = watch(context, *flags); });
 }
 
 }  // namespace isofield
