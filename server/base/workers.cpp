@@ -9,7 +9,7 @@ Workers::Workers(unsigned threads) {
 
 Workers::~Workers() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     is_over_ = true;
   }
   came_.notify_all();
@@ -24,20 +24,20 @@ void Workers::for_each(std::size_t count, const std::function<void(std::size_t)>
   Task task{&work, count};
   if (threads_.empty() || count < 2) return take_part(task);
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     tasks_.push_back(&task);
   }
   came_.notify_all();
   take_part(task);
-  std::unique_lock lock(mutex_);
+  MutexLock lock(mutex_);
   tasks_.remove(&task);
-  left_.wait(lock, [&] { return task.helpers == 0; });
+  while (task.helpers != 0) left_.wait(mutex_);
 }
 
 void Workers::help() {
-  std::unique_lock lock(mutex_);
+  MutexLock lock(mutex_);
   for (;;) {
-    came_.wait(lock, [&] { return is_over_ || !tasks_.empty(); });
+    while (!is_over_ && tasks_.empty()) came_.wait(mutex_);
     if (is_over_) return;
     Task& task = *tasks_.front();
     ++task.helpers;

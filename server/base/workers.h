@@ -2,15 +2,14 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstddef>
 #include <functional>
 #include <list>
-#include <mutex>
 #include <thread>
 #include <vector>
 
 #include "base/for_each.h"
+#include "base/mutex.h"
 
 namespace isofield::base {
 
@@ -40,10 +39,10 @@ class Workers {
   static void take_part(Task& task);
   void help();
 
-  std::mutex mutex_;
-  std::condition_variable came_, left_;
-  std::list<Task*> tasks_;  // of which something may be left to take
-  bool is_over_ = false;
+  Mutex mutex_;
+  Condition came_, left_;
+  std::list<Task*> tasks_ ABSL_GUARDED_BY(mutex_);  // of which something may be left to take
+  bool is_over_ ABSL_GUARDED_BY(mutex_) = false;
   std::vector<std::thread> threads_;  // last: they use the others
 };
 

@@ -9,7 +9,7 @@ absl::StatusOr<Store::Put> MemoryStore::put(Kind kind, const std::string& name, 
   using Outcome = Put::Outcome;
   const std::uint64_t value_bytes = value->bytes();
   Record replaced;  // declared before the lock: its value may be the last one of its kind, and is released after it
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   Shelf& there = shelf(kind);
   const auto it = there.records.find(name);
   const bool is_new = it == there.records.end();
@@ -32,7 +32,7 @@ absl::StatusOr<Store::Put> MemoryStore::put(Kind kind, const std::string& name, 
 absl::StatusOr<std::vector<std::optional<Record>>> MemoryStore::get(Kind kind,
                                                                     std::span<const std::string> names) const {
   std::vector<std::optional<Record>> found;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto& records = shelf(kind).records;
   for (const std::string& name : names) {
     const auto it = records.find(name);
@@ -43,7 +43,7 @@ absl::StatusOr<std::vector<std::optional<Record>>> MemoryStore::get(Kind kind,
 
 absl::StatusOr<std::vector<Record>> MemoryStore::list(Kind kind, const std::string& after, std::size_t most) const {
   std::vector<Record> listed;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto& records = shelf(kind).records;
   for (auto it = records.upper_bound(after); it != records.end() && listed.size() < most; ++it) {
     listed.push_back(it->second);
@@ -52,7 +52,7 @@ absl::StatusOr<std::vector<Record>> MemoryStore::list(Kind kind, const std::stri
 }
 
 absl::StatusOr<std::optional<Record>> MemoryStore::remove(Kind kind, const std::string& name) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   Shelf& there = shelf(kind);
   const auto it = there.records.find(name);
   if (it == there.records.end()) return std::nullopt;
@@ -63,7 +63,7 @@ absl::StatusOr<std::optional<Record>> MemoryStore::remove(Kind kind, const std::
 }
 
 absl::StatusOr<Usage> MemoryStore::usage(Kind kind) const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return Usage{shelf(kind).records.size(), shelf(kind).bytes};
 }
 

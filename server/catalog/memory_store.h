@@ -4,8 +4,8 @@
 #include <absl/container/btree_map.h>
 
 #include <array>
-#include <mutex>
 
+#include "base/mutex.h"
 #include "catalog/store.h"
 
 namespace isofield::catalog {
@@ -27,11 +27,13 @@ class MemoryStore final : public Store {
     std::uint64_t last_version = 0;
     std::uint64_t bytes = 0;  // of all values
   };
-  Shelf& shelf(Kind kind) { return shelves_[static_cast<std::size_t>(kind)]; }
-  const Shelf& shelf(Kind kind) const { return shelves_[static_cast<std::size_t>(kind)]; }
+  Shelf& shelf(Kind kind) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return shelves_[static_cast<std::size_t>(kind)]; }
+  const Shelf& shelf(Kind kind) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    return shelves_[static_cast<std::size_t>(kind)];
+  }
 
-  mutable std::mutex mutex_;
-  std::array<Shelf, kKinds> shelves_;
+  mutable base::Mutex mutex_;
+  std::array<Shelf, kKinds> shelves_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace isofield::catalog

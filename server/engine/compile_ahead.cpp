@@ -29,7 +29,7 @@ CompileAhead::CompileAhead(gpu::DeviceOptions device, const blobtree::SceneLimit
 
 CompileAhead::~CompileAhead() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_over_ = true;
   }
   wanted_more_.notify_all();
@@ -44,7 +44,7 @@ CompileAhead::Mix CompileAhead::mix_of(const blobtree::Tape& tape) {
 void CompileAhead::edited(std::shared_ptr<const v1::Scene> scene,
                           std::shared_ptr<const blobtree::OperatorTable> operators, SceneLease lease) {
   Mix mix = mix_of(lease->tape());
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (seen_.size() >= kMostMixes) {
     seen_.clear();
     done_.clear();
@@ -55,26 +55,26 @@ void CompileAhead::edited(std::shared_ptr<const v1::Scene> scene,
 }
 
 void CompileAhead::wait() {
-  std::unique_lock lock(mutex_);
-  is_idle_.wait(lock, [&] { return !wanted_ && !is_at_work_; });
+  base::MutexLock lock(mutex_);
+  while (wanted_ || is_at_work_) is_idle_.wait(mutex_);
 }
 
 std::uint64_t CompileAhead::mixes() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return done_.size();
 }
 
 bool CompileAhead::is_over() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return is_over_;
 }
 
 void CompileAhead::work() {
   // On Linux this lowers the priority of this thread alone, and of the threads that it starts, which are the device's.
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (true) {
-    wanted_more_.wait(lock, [&] { return is_over_ || wanted_; });
+    while (!is_over_ && !wanted_) wanted_more_.wait(mutex_);
     if (is_over_) return;
     const std::unique_ptr<Edited> edited = std::move(wanted_);
     is_at_work_ = true;
@@ -100,7 +100,7 @@ void CompileAhead::compile_for(const Edited& edited) {
     if (!scene.ok()) continue;
     Mix mix = mix_of((*scene)->tape());
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       if (seen_.contains(mix) || !done_.insert(std::move(mix)).second) continue;
     }
     rehearse(*scene);

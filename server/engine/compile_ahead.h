@@ -1,14 +1,13 @@
 // Compiles kernels in the background that an edited scene is likely to need next.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <thread>
 #include <vector>
 
+#include "base/mutex.h"
 #include "blobtree/scene/operator_table.h"
 #include "blobtree/scene/scene.h"
 #include "engine/engine.h"
@@ -58,12 +57,12 @@ class CompileAhead {
   const std::shared_ptr<SpecialisedKernels> specialised_;
   std::unique_ptr<Engine> engine_;  // used by the worker alone
 
-  mutable std::mutex mutex_;
-  std::condition_variable wanted_more_, is_idle_;
-  std::unique_ptr<Edited> wanted_;
-  std::set<Mix> seen_;  // mixes of edited scenes
-  std::set<Mix> done_;  // mixes whose kernels are compiled
-  bool is_at_work_ = false, is_over_ = false;
+  mutable base::Mutex mutex_;
+  base::Condition wanted_more_, is_idle_;
+  std::unique_ptr<Edited> wanted_ ABSL_GUARDED_BY(mutex_);
+  std::set<Mix> seen_ ABSL_GUARDED_BY(mutex_);  // mixes of edited scenes
+  std::set<Mix> done_ ABSL_GUARDED_BY(mutex_);  // mixes whose kernels are compiled
+  bool is_at_work_ ABSL_GUARDED_BY(mutex_) = false, is_over_ ABSL_GUARDED_BY(mutex_) = false;
   std::thread worker_;  // the last member, since it uses the others
 };
 

@@ -152,7 +152,7 @@ absl::Status Commands::submit() {
     barrier();
     impl_->buffer.end();
     const vk::CommandBuffer buffer = *impl_->buffer;
-    const std::lock_guard lock(impl_->device.queue_mutex);
+    const base::MutexLock lock(impl_->device.queue_mutex);
     impl_->device.queue->submit(vk::SubmitInfo({}, {}, buffer), *impl_->fence);
     impl_->is_submitted = impl_->is_spent = true;
     return absl::OkStatus();

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <atomic>
-#include <mutex>
 #include <optional>
 
+#include "base/mutex.h"
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 #include "gpu/device.h"
@@ -36,7 +36,7 @@ struct Device::Impl {
   std::optional<vk::raii::PhysicalDevice> physical;
   std::optional<vk::raii::Device> device;
   std::optional<vk::raii::Queue> queue;
-  std::mutex queue_mutex;
+  base::Mutex queue_mutex;
   std::optional<Turns> turns;
   std::uint32_t queue_family = 0;
   std::optional<vk::raii::DescriptorSetLayout> set_layout;

@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
+
+#include "base/mutex.h"
 
 namespace isofield::gpu {
 
@@ -15,7 +16,7 @@ class Spares {
  public:
   // Null: there is none.
   std::unique_ptr<T> take() {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (kept_.empty()) return nullptr;
     std::unique_ptr<T> last = std::move(kept_.back());
     kept_.pop_back();
@@ -23,15 +24,15 @@ class Spares {
   }
   // Destroys it where enough are kept.
   void give(std::unique_ptr<T> object) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (kept_.size() < kMost) kept_.push_back(std::move(object));
   }
 
  private:
   static constexpr std::size_t kMost = 8;
 
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<T>> kept_;
+  base::Mutex mutex_;
+  std::vector<std::unique_ptr<T>> kept_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace isofield::gpu

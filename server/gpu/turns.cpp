@@ -11,24 +11,24 @@ bool is_more_urgent(const Urgency& a, const Urgency& b) {
 }
 
 Turns::Turn Turns::take(const Urgency& urgency) {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   if (is_taken_) {
     Waiter self{urgency};
     waiters_.push_back(&self);
-    self.called.wait(lock, [&] { return self.is_next; });
+    while (!self.is_next) self.called.wait(mutex_);
   }
   is_taken_ = true;
   return Turn(this);
 }
 
 std::size_t Turns::waiting() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return waiters_.size();
 }
 
 // Hands the turn over where one waits: it is never free in between.
 void Turns::release() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   is_taken_ = !waiters_.empty();
   if (!is_taken_) return;
   auto next = waiters_.begin();

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <list>
 #include <memory>
-#include <mutex>
 
+#include "base/mutex.h"
 #include "gpu/device_profile.h"
 
 namespace isofield::gpu {
@@ -56,15 +55,15 @@ class Turns {
   struct Waiter {
     Urgency urgency;
     bool is_next = false;
-    std::condition_variable called;
+    base::Condition called;
   };
   void release();
 
   const std::uint64_t patience_;
-  mutable std::mutex mutex_;
-  std::list<Waiter*> waiters_;  // by arrival
-  bool is_taken_ = false;
-  std::uint64_t picks_ = 0;
+  mutable base::Mutex mutex_;
+  std::list<Waiter*> waiters_ ABSL_GUARDED_BY(mutex_);  // by arrival
+  bool is_taken_ ABSL_GUARDED_BY(mutex_) = false;
+  std::uint64_t picks_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace isofield::gpu

@@ -31,7 +31,7 @@ std::optional<std::int64_t> retry_after_ms(const absl::Status& status) {
 
 absl::Status Admission::Ticket::add(std::uint64_t points) {
   if (!admission_) return absl::FailedPreconditionError("points are added to no request");
-  const std::lock_guard lock(admission_->mutex_);
+  const base::MutexLock lock(admission_->mutex_);
   if (!admission_->has_room_for(points)) return admission_->refusal();
   admission_->points_ += points;
   points_ += points;
@@ -39,13 +39,13 @@ absl::Status Admission::Ticket::add(std::uint64_t points) {
 }
 
 absl::StatusOr<Admission::Ticket> Admission::admit(std::uint64_t points) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (requests_ >= limits_.max_requests || !has_room_for(points)) return refusal();
   return take(points);
 }
 
 Admission::Ticket Admission::count(std::uint64_t points) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return take(points);
 }
 
@@ -71,7 +71,7 @@ Admission::Ticket Admission::take(std::uint64_t points) {
 }
 
 void Admission::release(std::uint64_t points) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   --requests_;
   points_ -= points;
   const auto now = now_();

@@ -7,9 +7,10 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <utility>
+
+#include "base/mutex.h"
 
 namespace isofield::rpc {
 
@@ -63,18 +64,18 @@ class Admission {
   Ticket count(std::uint64_t points);
 
  private:
-  bool has_room_for(std::uint64_t points) const;
-  absl::Status refusal() const;
-  Ticket take(std::uint64_t points);
+  bool has_room_for(std::uint64_t points) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status refusal() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  Ticket take(std::uint64_t points) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void release(std::uint64_t points);
 
   const AdmissionLimits limits_;
   const Clock now_;
-  std::mutex mutex_;
-  std::uint64_t requests_ = 0, points_ = 0;  // at work
+  base::Mutex mutex_;
+  std::uint64_t requests_ ABSL_GUARDED_BY(mutex_) = 0, points_ ABSL_GUARDED_BY(mutex_) = 0;  // at work
   // Work that ended lately and the time it took, the older the less; for the estimate of when to try again.
-  double recent_seconds_ = 0, recent_work_ = 0;
-  std::chrono::steady_clock::time_point busy_since_;  // or since the last request ended
+  double recent_seconds_ ABSL_GUARDED_BY(mutex_) = 0, recent_work_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::chrono::steady_clock::time_point busy_since_ ABSL_GUARDED_BY(mutex_);  // or since the last request ended
 };
 
 // After this many milliseconds a request that was refused by admission may be sent again. Nothing for other statuses.

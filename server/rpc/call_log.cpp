@@ -87,7 +87,7 @@ void CallNotes::set_subject(const v1::SceneRef& scene) {
 }
 
 void CallNotes::set_subject(std::string name) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   // A call has one line in the log, whatever characters its client sends.
   for (char& c : name) c = c > ' ' && c < 0x7f ? c : '?';
   if (name.size() > kLongestName) name.replace(kLongestName, std::string::npos, "...");
@@ -95,12 +95,12 @@ void CallNotes::set_subject(std::string name) {
 }
 
 void CallNotes::add_work(const char* unit, std::uint64_t count) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   work_[unit] += count;
 }
 
 std::string CallNotes::text() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::string text;
   if (!subject_.empty()) absl::StrAppend(&text, " scene=", subject_);
   for (const auto& [unit, count] : work_) absl::StrAppend(&text, " ", unit, "=", count);
@@ -113,12 +113,12 @@ class CallLog::Call final : public grpc::experimental::Interceptor {
  public:
   Call(CallLog& log, grpc::experimental::ServerRpcInfo& info)
       : log_(log), context_(info.server_context()), method_(info.method()), id_(++log.last_id_) {
-    const std::lock_guard lock(log_.mutex_);
+    const base::MutexLock lock(log_.mutex_);
     log_.running_[context_] = &notes_;
   }
   ~Call() override {
     {
-      const std::lock_guard lock(log_.mutex_);
+      const base::MutexLock lock(log_.mutex_);
       log_.running_.erase(context_);
     }
     if (start_ == Clock::time_point()) return;  // no call has come: the server is shutting down
@@ -182,7 +182,7 @@ std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> CallLog::
 
 CallNotes* CallLog::notes_of(const grpc::ServerContextBase& context) const {
   if (!is_on()) return nullptr;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto found = running_.find(&context);
   return found == running_.end() ? nullptr : found->second;
 }

@@ -9,9 +9,9 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 
+#include "base/mutex.h"
 #include "engine/request_times.h"
 #include "isofield/v1/scene.pb.h"
 
@@ -33,9 +33,9 @@ class CallNotes {
 
  private:
   engine::RequestTimes times_;
-  mutable std::mutex mutex_;
-  std::string subject_;
-  std::map<std::string, std::uint64_t> work_;
+  mutable base::Mutex mutex_;
+  std::string subject_ ABSL_GUARDED_BY(mutex_);
+  std::map<std::string, std::uint64_t> work_ ABSL_GUARDED_BY(mutex_);
 };
 
 // Thread-safe. It costs nothing when it is off, since gRPC gets no interceptor then.
@@ -65,8 +65,8 @@ class CallLog {
 
   const Sink sink_;
   std::atomic<std::uint64_t> last_id_ = 0;
-  mutable std::mutex mutex_;
-  std::map<const grpc::ServerContextBase*, CallNotes*> running_;
+  mutable base::Mutex mutex_;
+  std::map<const grpc::ServerContextBase*, CallNotes*> running_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace isofield::rpc

@@ -19,8 +19,8 @@ void CallThreads::stop() {
   if (threads_.empty()) return;
   {
     // For the server, a cancelled call has ended; it is answered into the queue all the same.
-    std::unique_lock lock(mutex_);
-    none_left_.wait(lock, [&] { return calls_ == 0; });
+    base::MutexLock lock(mutex_);
+    while (calls_ != 0) none_left_.wait(mutex_);
   }
   queue_->Shutdown();
   for (std::thread& t : threads_) t.join();

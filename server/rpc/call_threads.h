@@ -3,12 +3,12 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
+
+#include "base/mutex.h"
 
 namespace isofield::rpc {
 
@@ -26,11 +26,11 @@ class CallThreads {
   class Member {
    public:
     explicit Member(CallThreads& threads) : threads_(threads) {
-      const std::lock_guard lock(threads_.mutex_);
+      const base::MutexLock lock(threads_.mutex_);
       ++threads_.calls_;
     }
     ~Member() {
-      const std::lock_guard lock(threads_.mutex_);
+      const base::MutexLock lock(threads_.mutex_);
       if (--threads_.calls_ == 0) threads_.none_left_.notify_one();
     }
     Member(const Member&) = delete;
@@ -50,9 +50,9 @@ class CallThreads {
 
   std::unique_ptr<grpc::ServerCompletionQueue> queue_;
   std::vector<std::thread> threads_;
-  std::mutex mutex_;
-  std::size_t calls_ = 0;
-  std::condition_variable none_left_;
+  base::Mutex mutex_;
+  std::size_t calls_ ABSL_GUARDED_BY(mutex_) = 0;
+  base::Condition none_left_;
 };
 
 }  // namespace isofield::rpc

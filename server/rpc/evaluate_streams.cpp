@@ -3,10 +3,10 @@
 #include <absl/strings/str_cat.h>
 
 #include <deque>
-#include <mutex>
 #include <optional>
 
 #include "base/guarded.h"
+#include "base/mutex.h"
 #include "rpc/answer_limit.h"
 #include "rpc/evaluate_arguments.h"
 #include "rpc/handler.h"
@@ -34,8 +34,6 @@ class EvaluateStreams::Stream {
   }
 
  private:
-  using Lock = std::unique_lock<std::mutex>;
-
   // A message with points, from when it is read to when its answer is written.
   struct Work {
     v1::EvaluateStreamRequest request;
@@ -53,7 +51,7 @@ class EvaluateStreams::Stream {
       return;
     }
     new Stream(streams_);
-    Lock lock(mutex_);
+    mutex_.lock();
     is_open_ = true;
     const int most = streams_.service_.limits().max_streams;
     if (++streams_.open_ > most) {
@@ -61,11 +59,11 @@ class EvaluateStreams::Stream {
           most,
           " streams are open, as many as are admitted (three quarters of --max-threads): close one, or try again")));
     }
-    leave(std::move(lock));
+    leave();
   }
 
   void on_read(bool is_ok) {
-    Lock lock(mutex_);
+    mutex_.lock();
     if (!is_ok || outcome_) {
       is_reading_ = false;
       is_input_over_ = true;
@@ -73,36 +71,36 @@ class EvaluateStreams::Stream {
         input_status_ =
             absl::InvalidArgumentError("the stream is empty: expected a first message that states the scene");
       }
-      return leave(std::move(lock));
+      return leave();
     }
-    lock.unlock();
+    mutex_.unlock();
     // Until is_reading_ is false what follows is this thread's alone.
     auto work = std::make_unique<Work>();
     const absl::Status status = base::guarded([&] { return parse(work->request); });
     Work* const to_do = status.ok() && PointFields(work->request).has_points() ? work.get() : nullptr;
-    lock.lock();
+    mutex_.lock();
     is_reading_ = false;
     if (!status.ok()) {
       is_input_over_ = true;
       input_status_ = status;
     }
-    if (!to_do) return leave(std::move(lock));
+    if (!to_do) return leave();
     work_.push_back(std::move(work));
     read_next();  // while this one is evaluated
-    lock.unlock();
+    mutex_.unlock();
     evaluate(*to_do);
   }
 
   void on_evaluated(Work& work, absl::Status status) {
-    Lock lock(mutex_);
+    mutex_.lock();
     work.status = std::move(status);
     work.ticket = {};
     work.is_done = true;
-    leave(std::move(lock));
+    leave();
   }
 
   void on_written(bool is_ok) {
-    Lock lock(mutex_);
+    mutex_.lock();
     is_writing_ = false;
     Work& work = *work_.front();
     work.answers.pop_front();
@@ -111,10 +109,13 @@ class EvaluateStreams::Stream {
       work_.pop_front();
     }
     if (!is_ok && !outcome_) decide(client_gone());
-    leave(std::move(lock));
+    leave();
   }
 
-  void on_part_done() { leave(Lock(mutex_)); }
+  void on_part_done() {
+    mutex_.lock();
+    leave();
+  }
 
   // The message that has come, and of the first one what it says of the stream.
   absl::Status parse(v1::EvaluateStreamRequest& request) {
@@ -159,12 +160,12 @@ class EvaluateStreams::Stream {
   }
 
   // How the stream ends.
-  void decide(const absl::Status& status) {
+  void decide(const absl::Status& status) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     outcome_ = status;
     is_over_ = !status.ok();
   }
 
-  void read_next() {
+  void read_next() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     if (outcome_ || is_reading_ || is_input_over_ || work_.size() >= kAtHand) return;
     is_reading_ = true;
     ++parts_;
@@ -172,7 +173,7 @@ class EvaluateStreams::Stream {
   }
 
   // Starts what can be started. The last thing that a thread does here.
-  void go_on(Lock lock) {
+  void go_on() ABSL_UNLOCK_FUNCTION(mutex_) {
     const bool is_answer_ready = !outcome_ && !is_writing_ && !work_.empty() && work_.front()->is_done;
     if (is_answer_ready && !work_.front()->status.ok()) {
       const absl::Status& s = work_.front()->status;
@@ -189,11 +190,11 @@ class EvaluateStreams::Stream {
       ++parts_;
       peer_.Finish(finish(context_, *outcome_), &part_done_);
     }
-    if (!is_answer_ready || !is_writing_) return;
-    Work& work = *work_.front();
-    lock.unlock();
-    if (work.answers.empty()) work.answers = answers_of(work);
-    peer_.Write(work.answers.front(), &written_);
+    Work* const work = is_answer_ready && is_writing_ ? work_.front().get() : nullptr;
+    mutex_.unlock();
+    if (work == nullptr) return;
+    if (work->answers.empty()) work->answers = answers_of(*work);
+    peer_.Write(work->answers.front(), &written_);
   }
 
   std::deque<grpc::ByteBuffer> answers_of(Work& work) const {
@@ -202,9 +203,9 @@ class EvaluateStreams::Stream {
   }
 
   // The same at the end of a part.
-  void leave(Lock lock) {
-    if (--parts_ > 0) return go_on(std::move(lock));
-    lock.unlock();
+  void leave() ABSL_UNLOCK_FUNCTION(mutex_) {
+    if (--parts_ > 0) return go_on();
+    mutex_.unlock();
     delete this;
   }
 
@@ -223,14 +224,16 @@ class EvaluateStreams::Stream {
   AnswerLimit limit_;                        // from the first message on
   std::atomic<bool> is_over_ = false;        // the work that goes on is in vain
 
-  std::mutex mutex_;
-  std::deque<std::unique_ptr<Work>> work_;  // in order
+  base::Mutex mutex_;
+  std::deque<std::unique_ptr<Work>> work_ ABSL_GUARDED_BY(mutex_);  // in order
   // Under way: operations, evaluations, and of the call its coming and its end, which other threads may see at once.
-  int parts_ = 2;
-  bool is_open_ = false, is_reading_ = false, is_writing_ = false, is_input_over_ = false, is_finished_ = false;
-  absl::Status input_status_;
-  std::optional<absl::Status> outcome_;
-  std::uint64_t points_answered_ = 0;
+  int parts_ ABSL_GUARDED_BY(mutex_) = 2;
+  bool is_open_ ABSL_GUARDED_BY(mutex_) = false, is_reading_ ABSL_GUARDED_BY(mutex_) = false;
+  bool is_writing_ ABSL_GUARDED_BY(mutex_) = false, is_input_over_ ABSL_GUARDED_BY(mutex_) = false;
+  bool is_finished_ ABSL_GUARDED_BY(mutex_) = false;
+  absl::Status input_status_ ABSL_GUARDED_BY(mutex_);
+  std::optional<absl::Status> outcome_ ABSL_GUARDED_BY(mutex_);
+  std::uint64_t points_answered_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 
 void EvaluateStreams::start(int threads) {

@@ -50,7 +50,7 @@ struct SharedRegions::Region {
 absl::StatusOr<std::string> SharedRegions::open(int descriptor) {
   const absl::StatusOr<std::uint64_t> bytes = size_of(descriptor);
   if (!bytes.ok()) return bytes.status();
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (usage_->regions >= limits_.max_regions || *bytes > limits_.max_bytes ||
       usage_->bytes > limits_.max_bytes - *bytes) {
     return absl::ResourceExhaustedError(
@@ -76,7 +76,7 @@ absl::StatusOr<std::string> SharedRegions::open(int descriptor) {
 
 void SharedRegions::close(const std::string& name) {
   std::shared_ptr<Region> last;  // declared before the lock: unmapped after it
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto it = regions_.find(name);
   if (it == regions_.end()) return;
   last = std::move(it->second);
@@ -87,7 +87,7 @@ absl::StatusOr<SharedBytes> SharedRegions::find(const v1::SharedTensor& tensor, 
                                                 std::uint64_t number_bytes, const char* what) const {
   std::shared_ptr<Region> region;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const auto it = regions_.find(tensor.region());
     if (it != regions_.end()) region = it->second;
   }

@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 
+#include "base/mutex.h"
 #include "isofield/v1/scene.pb.h"
 
 namespace isofield::rpc {
@@ -47,8 +47,8 @@ class SharedRegions {
   struct Region;
 
   const SharedLimits limits_;
-  mutable std::mutex mutex_;
-  absl::flat_hash_map<std::string, std::shared_ptr<Region>> regions_;
+  mutable base::Mutex mutex_;
+  absl::flat_hash_map<std::string, std::shared_ptr<Region>> regions_ ABSL_GUARDED_BY(mutex_);
   // Mapped: those closed and still in use among them. Shared with the regions.
   struct Usage {
     std::atomic<std::uint64_t> regions = 0, bytes = 0;

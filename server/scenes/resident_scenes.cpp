@@ -6,7 +6,7 @@ namespace isofield::scenes {
 
 absl::StatusOr<engine::SceneLease> ResidentScenes::acquire(const catalog::Entry& entry) const {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const auto it = kept_.find(entry.version);
     if (it != kept_.end()) return it->second;
   }
@@ -14,13 +14,13 @@ absl::StatusOr<engine::SceneLease> ResidentScenes::acquire(const catalog::Entry&
 }
 
 void ResidentScenes::keep(std::uint64_t version, engine::SceneLease scene) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   kept_[version] = std::move(scene);
 }
 
 void ResidentScenes::drop(std::uint64_t version) {
   engine::SceneLease last;  // declared before the lock, so that it is released after it
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto it = kept_.find(version);
   if (it == kept_.end()) return;
   last = std::move(it->second);
@@ -28,7 +28,7 @@ void ResidentScenes::drop(std::uint64_t version) {
 }
 
 ResidentScenes::Usage ResidentScenes::usage() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   Usage usage{kept_.size(), engine_.volumes().usage().bytes};
   for (const auto& [version, scene] : kept_) usage.bytes += scene->own_bytes();
   return usage;

@@ -5,8 +5,8 @@
 #include <absl/status/statusor.h>
 
 #include <cstdint>
-#include <mutex>
 
+#include "base/mutex.h"
 #include "catalog/catalog.h"
 #include "engine/engine.h"
 
@@ -32,8 +32,8 @@ class ResidentScenes {
 
  private:
   engine::Engine& engine_;
-  mutable std::mutex mutex_;
-  absl::flat_hash_map<std::uint64_t, engine::SceneLease> kept_;
+  mutable base::Mutex mutex_;
+  absl::flat_hash_map<std::uint64_t, engine::SceneLease> kept_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace isofield::scenes

@@ -1,5 +1,6 @@
 #include "scenes/scene_editor.h"
 
+#include "base/mutex.h"
 #include "base/status_macros.h"
 
 namespace isofield::scenes {
@@ -7,7 +8,7 @@ namespace isofield::scenes {
 absl::StatusOr<StoredScene> SceneEditor::put(const std::string& name, v1::Scene scene, engine::SceneLease lease,
                                              std::shared_ptr<const catalog::SceneOperators> operators,
                                              const catalog::Condition& condition) {
-  const std::lock_guard lock(residency_mutex_);
+  const base::MutexLock lock(residency_mutex_);
   ISOFIELD_ASSIGN_OR_RETURN(catalog::Catalog::Put put,
                             catalog_.put(name, std::move(scene), std::move(operators), condition));
   residents_.keep(put.entry.version, lease);
@@ -20,7 +21,7 @@ absl::StatusOr<StoredScene> SceneEditor::put(const std::string& name, v1::Scene 
 }
 
 absl::Status SceneEditor::remove(const std::string& name) {
-  const std::lock_guard lock(residency_mutex_);
+  const base::MutexLock lock(residency_mutex_);
   ISOFIELD_ASSIGN_OR_RETURN(const std::uint64_t version, catalog_.remove(name));
   residents_.drop(version);
   return absl::OkStatus();

@@ -4,10 +4,10 @@
 #include <absl/status/statusor.h>
 
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "base/mutex.h"
 #include "blobtree/scene/parameter_edit.h"
 #include "catalog/catalog.h"
 #include "engine/compile_ahead.h"
@@ -50,7 +50,7 @@ class SceneEditor {
   // Makes the resident scenes follow the catalog step by step. Otherwise, of two puts at once, the first scene could be
   // kept after the second put has dropped it, and would stay for good. It is held while a store writes: puts wait for
   // one another then, but no evaluation does.
-  std::mutex residency_mutex_;
+  base::Mutex residency_mutex_;
 };
 
 }  // namespace isofield::scenes

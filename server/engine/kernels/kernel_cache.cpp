@@ -106,7 +106,7 @@ absl::StatusOr<gpu::SharedPipeline> KernelCache::get(const shaders::Spirv& shade
   std::shared_future<Compiled> kernel;
   bool compiles = false, is_ready = false;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (kernels_.size() >= most_ && !kernels_.contains(key)) forget_least_used();
     auto [it, added] = kernels_.try_emplace(key);
     if (added) {
@@ -123,7 +123,7 @@ absl::StatusOr<gpu::SharedPipeline> KernelCache::get(const shaders::Spirv& shade
   if (compiles) {
     Compiled compiled = compile(shader, kind);
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       if (compiled.ok()) {
         kernels_[key].is_ready = true;
         ++compiled_;
@@ -152,7 +152,7 @@ void KernelCache::forget_least_used() {
 }
 
 KernelCache::Counts KernelCache::counts() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return {kernels_.size(), compiled_};
 }
 

@@ -9,9 +9,9 @@
 #include <future>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <utility>
 
+#include "base/mutex.h"
 #include "blobtree/tape/tape.h"
 #include "engine/kernels/kernel_constants.h"
 #include "engine/kernels/specialised_kernels.h"
@@ -77,14 +77,14 @@ class KernelCache {
   };
 
   Compiled compile(const shaders::Spirv& shader, const KernelKind& kind);
-  void forget_least_used();
+  void forget_least_used() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   gpu::Device& device_;
   const std::size_t most_;
   const std::shared_ptr<SpecialisedKernels> specialised_;
-  mutable std::mutex mutex_;
-  std::map<Key, Entry> kernels_;
-  std::uint64_t uses_ = 0, compiled_ = 0;
+  mutable base::Mutex mutex_;
+  std::map<Key, Entry> kernels_ ABSL_GUARDED_BY(mutex_);
+  std::uint64_t uses_ ABSL_GUARDED_BY(mutex_) = 0, compiled_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 
 // The kernels of one request. `waits` is called whenever the request has to wait for one to be compiled.

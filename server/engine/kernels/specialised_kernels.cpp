@@ -24,7 +24,7 @@ absl::StatusOr<SpecialisedKernels::Kernel> SpecialisedKernels::get(const shaders
                                                                    std::span<const std::uint32_t> constants) {
   Key key{shader.data(), {constants.begin(), constants.end()}};
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (const auto found = by_key_.find(key); found != by_key_.end()) {
       places_.splice(places_.begin(), places_, found->second);
       return found->second->kernel;
@@ -39,7 +39,7 @@ absl::StatusOr<SpecialisedKernels::Kernel> SpecialisedKernels::get(const shaders
     ISOFIELD_ASSIGN_OR_RETURN(*made, shaders::specialise(shader, constants));
     store_.save(text, *made);
   }
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (by_key_.contains(key)) return made;  // two threads made it at once
   places_.push_front({key, made});
   by_key_[std::move(key)] = places_.begin();

@@ -8,12 +8,12 @@
 #include <list>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/mutex.h"
 #include "engine/kernels/spirv_store.h"
 #include "shaders/embedded.h"
 
@@ -43,9 +43,9 @@ class SpecialisedKernels {
 
   const SpirvStore store_;
   std::atomic<std::uint64_t> made_ = 0;
-  std::mutex mutex_;
-  std::list<Place> places_;  // the most recently used first
-  std::map<Key, std::list<Place>::iterator> by_key_;
+  base::Mutex mutex_;
+  std::list<Place> places_ ABSL_GUARDED_BY(mutex_);  // the most recently used first
+  std::map<Key, std::list<Place>::iterator> by_key_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace isofield::engine

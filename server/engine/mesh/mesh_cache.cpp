@@ -14,7 +14,7 @@ std::uint64_t bytes_of(const MeshCache::Parts& parts) {
 }  // namespace
 
 std::shared_ptr<const MeshCache::Kept> MeshCache::find(const ResidentScene& scene, const MeshRequest& request) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const Entry* const found = entries_.find(scene, [&](const Entry& e) { return e.request == request; });
   return found ? found->mesh : nullptr;
 }
@@ -22,7 +22,7 @@ std::shared_ptr<const MeshCache::Kept> MeshCache::find(const ResidentScene& scen
 void MeshCache::keep(const ResidentScene& scene, const MeshRequest& request, Kept mesh) {
   const std::uint64_t bytes = bytes_of(mesh.parts);
   if (bytes > max_bytes_ / 2) return;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   entries_.add({scene.weak_from_this(), request, std::make_shared<const Kept>(std::move(mesh)), bytes});
   std::uint64_t sum = 0;
   entries_.trim([&](const Entry& e) { return (sum += e.bytes) <= max_bytes_; });

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
+#include "base/mutex.h"
 #include "engine/mesh/mesh_cells.h"
 #include "engine/mesh/mesh_request.h"
 #include "engine/mesh/mesh_shells.h"
@@ -38,8 +38,8 @@ class MeshCache {
     std::uint64_t bytes;
   };
   const std::uint64_t max_bytes_;
-  std::mutex mutex_;
-  SceneEntries<Entry> entries_;
+  base::Mutex mutex_;
+  SceneEntries<Entry> entries_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace isofield::engine

@@ -21,7 +21,7 @@ absl::Status deadline_exceeded() {
 
 EvaluationQueue::~EvaluationQueue() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_over_ = true;
   }
   left_over_.notify_one();
@@ -42,12 +42,12 @@ void EvaluationQueue::submit(PointBatch batch, Done done) {
   auto self = std::make_unique<Waiting>(Waiting{.batch = std::move(batch), .done = std::move(done), .status = {}});
   Batches answered;
   {
-    std::unique_lock lock(mutex_);
+    base::MutexLock lock(mutex_);
     waiting_points_ += points_of(self->batch);
     waiting_.push_back(std::move(self));
     more_came_.notify_one();
     if (is_led_) return;
-    answered = run_next(lock);
+    answered = run_next();
   }
   for (const auto& a : answered) a->done(a->status);
 }
@@ -61,11 +61,11 @@ absl::Status EvaluationQueue::evaluate(const PointBatch& batch) {
 }
 
 void EvaluationQueue::dispatch() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (true) {
-    left_over_.wait(lock, [&] { return is_over_ || (!is_led_ && !waiting_.empty()); });
+    while (!is_over_ && (is_led_ || waiting_.empty())) left_over_.wait(mutex_);
     if (is_over_) return;
-    const Batches answered = run_next(lock);
+    const Batches answered = run_next();
     lock.unlock();
     for (const auto& a : answered) a->done(a->status);
     lock.lock();
@@ -73,7 +73,7 @@ void EvaluationQueue::dispatch() {
 }
 
 std::size_t EvaluationQueue::waiting() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return waiting_.size();
 }
 
@@ -89,15 +89,15 @@ absl::Status EvaluationQueue::evaluate_large(const PointBatch& batch) {
 
 // What is to go next is decided when the device is free. The lock is given up in between, and the answers are the
 // caller's to give: the next submission need not wait for them.
-EvaluationQueue::Batches EvaluationQueue::run_next(std::unique_lock<std::mutex>& lock) {
+EvaluationQueue::Batches EvaluationQueue::run_next() {
   is_led_ = true;
-  wait_for_more(lock);
+  wait_for_more();
   const gpu::Urgency urgency = most_urgent();
-  lock.unlock();
+  mutex_.unlock();
   gpu::Turns::Turn turn = turns_.take(urgency);
-  lock.lock();
+  mutex_.lock();
   Batches taken = take_next();
-  lock.unlock();
+  mutex_.unlock();
   std::vector<Waiting*> running;
   for (const auto& w : taken) {
     if (w->batch.deadline <= now_()) {
@@ -121,7 +121,7 @@ EvaluationQueue::Batches EvaluationQueue::run_next(std::unique_lock<std::mutex>&
     }
   }
   turn = {};
-  lock.lock();
+  mutex_.lock();
   is_led_ = false;
   if (!waiting_.empty()) left_over_.notify_one();
   return taken;
@@ -135,9 +135,11 @@ gpu::Urgency EvaluationQueue::most_urgent() const {
   return most;
 }
 
-void EvaluationQueue::wait_for_more(std::unique_lock<std::mutex>& lock) {
+void EvaluationQueue::wait_for_more() {
   if (options_.delay.count() == 0) return;
-  more_came_.wait_for(lock, options_.delay, [&] { return waiting_points_ >= profile_.joined_points; });
+  const auto end = std::chrono::steady_clock::now() + options_.delay;
+  while (waiting_points_ < profile_.joined_points && more_came_.wait_until(mutex_, end)) {
+  }
 }
 
 // The first one, and those that can go with it in the order of their urgency.

@@ -4,15 +4,14 @@
 #include <absl/status/status.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <thread>
 #include <vector>
 
+#include "base/mutex.h"
 #include "engine/points/field_evaluator.h"
 #include "engine/request_times.h"
 #include "gpu/turns.h"
@@ -88,10 +87,10 @@ class EvaluationQueue {
   gpu::Urgency urgency_of(const PointBatch& batch) const;
   absl::Status evaluate_large(const PointBatch& batch);
   void dispatch();
-  Batches run_next(std::unique_lock<std::mutex>& lock);
-  gpu::Urgency most_urgent() const;
-  void wait_for_more(std::unique_lock<std::mutex>& lock);
-  Batches take_next();
+  Batches run_next() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  gpu::Urgency most_urgent() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void wait_for_more() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  Batches take_next() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn, RequestTimes& times);
   // run_, timed.
   absl::Status run(const PointBatch& first, std::span<const float> xyz, std::span<float> out,
@@ -103,13 +102,13 @@ class EvaluationQueue {
   const QueueOptions options_;
   const Clock now_;
 
-  mutable std::mutex mutex_;
-  Batches waiting_;  // by arrival
-  std::uint64_t waiting_points_ = 0;
-  std::condition_variable more_came_, left_over_;
-  bool is_led_ = false;  // a thread is at the next submission
-  bool is_over_ = false;
-  std::uint64_t picks_ = 0;
+  mutable base::Mutex mutex_;
+  Batches waiting_ ABSL_GUARDED_BY(mutex_);  // by arrival
+  std::uint64_t waiting_points_ ABSL_GUARDED_BY(mutex_) = 0;
+  base::Condition more_came_, left_over_;
+  bool is_led_ ABSL_GUARDED_BY(mutex_) = false;  // a thread is at the next submission
+  bool is_over_ ABSL_GUARDED_BY(mutex_) = false;
+  std::uint64_t picks_ ABSL_GUARDED_BY(mutex_) = 0;
   std::thread dispatcher_;  // last: it uses the others
 };
 

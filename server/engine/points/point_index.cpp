@@ -59,7 +59,7 @@ absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndexCache::find(gpu::Dev
                                                                         const std::function<bool()>& cancelled) {
   const auto fits = [&](const PointIndex& index) { return index.tapes().size() <= kBricksPerPoint * points; };
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     Entry& e = entry(scene);
     e.points += points;
     if (e.index) return fits(*e.index) ? e.index : nullptr;
@@ -67,7 +67,7 @@ absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndexCache::find(gpu::Dev
     e.is_tried = true;  // others go on without one meanwhile
   }
   absl::StatusOr<std::shared_ptr<const PointIndex>> made = PointIndex::make(device, scene, cancelled);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   Entry& e = entry(scene);
   if (absl::IsCancelled(made.status())) {
     e.is_tried = false;

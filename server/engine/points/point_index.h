@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <vector>
 
+#include "base/mutex.h"
 #include "blobtree/cull/point_grid.h"
 #include "engine/residency/scene_entries.h"
 #include "engine/residency/tape_windows.h"
@@ -56,11 +56,11 @@ class PointIndexCache {
     bool is_tried = false;
     std::shared_ptr<const PointIndex> index;
   };
-  Entry& entry(const ResidentScene& scene);
-  void trim();
+  Entry& entry(const ResidentScene& scene) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void trim() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
-  std::mutex mutex_;
-  SceneEntries<Entry> entries_;
+  base::Mutex mutex_;
+  SceneEntries<Entry> entries_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace isofield::engine

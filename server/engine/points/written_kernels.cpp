@@ -50,7 +50,7 @@ WrittenKernels::WrittenKernels(gpu::Device& device, TierTwoOptions options)
 
 WrittenKernels::~WrittenKernels() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_over_ = true;
   }
   wanted_more_.notify_all();
@@ -69,7 +69,7 @@ gpu::SharedPipeline WrittenKernels::find(const ResidentScene& scene, bool with_g
   const bool is_short = tape.code.size() <= most_instructions(tape, device_.profile());
   if (!options_.is_on || !is_short || !is_writable(tape)) return nullptr;
   Key key = key_of(tape, with_gradient);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (entries_.size() >= kMostStructures && !entries_.contains(key)) forget_cold();
   Entry& entry = entries_[key];
   entry.points += points;
@@ -97,21 +97,21 @@ void WrittenKernels::forget_least_used() {
 }
 
 void WrittenKernels::wait() {
-  std::unique_lock lock(mutex_);
-  made_one_.wait(lock, [&] { return wanted_.empty() && !is_at_work_; });
+  base::MutexLock lock(mutex_);
+  while (!wanted_.empty() || is_at_work_) made_one_.wait(mutex_);
 }
 
 WrittenKernels::Counts WrittenKernels::counts() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return counts_;
 }
 
 void WrittenKernels::work() {
   // Of this thread alone, on Linux.
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (true) {
-    wanted_more_.wait(lock, [&] { return is_over_ || !wanted_.empty(); });
+    while (!is_over_ && wanted_.empty()) wanted_more_.wait(mutex_);
     if (is_over_) return;
     Wanted wanted = std::move(wanted_.front());
     wanted_.pop_front();
@@ -138,7 +138,7 @@ absl::StatusOr<std::vector<std::uint32_t>> WrittenKernels::spirv_of(const Wanted
   const std::string tape = write_tape(wanted.scene->tape());
   const std::string text = absl::StrCat(absl::Hex(shaders::compiler_version()), "\n", definitions, tape);
   if (auto kept = store_.load(text)) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     ++counts_.from_disk;
     return *std::move(kept);
   }

@@ -4,16 +4,15 @@
 #include <absl/status/statusor.h>
 
 #include <array>
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "base/mutex.h"
 #include "engine/kernels/kernel_cache.h"
 #include "engine/kernels/spirv_store.h"
 #include "engine/residency/resident_scene.h"
@@ -74,19 +73,20 @@ class WrittenKernels {
   void work();
   absl::StatusOr<gpu::SharedPipeline> make(const Wanted& wanted);
   absl::StatusOr<std::vector<std::uint32_t>> spirv_of(const Wanted& wanted);
-  void forget_cold();
-  void forget_least_used();
+  void forget_cold() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void forget_least_used() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   gpu::Device& device_;
   const TierTwoOptions options_;
   const SpirvStore store_;
-  mutable std::mutex mutex_;
-  std::condition_variable wanted_more_, made_one_;
-  std::map<Key, Entry> entries_;
-  std::uint64_t uses_ = 0, held_ = 0;  // calls of find(), kernels that are there or wanted
-  std::deque<Wanted> wanted_;
-  bool is_at_work_ = false, is_over_ = false;
-  Counts counts_;
+  mutable base::Mutex mutex_;
+  base::Condition wanted_more_, made_one_;
+  std::map<Key, Entry> entries_ ABSL_GUARDED_BY(mutex_);
+  std::uint64_t uses_ ABSL_GUARDED_BY(mutex_) = 0, held_ ABSL_GUARDED_BY(mutex_) =
+                                                       0;  // calls of find(), kernels that are there or wanted
+  std::deque<Wanted> wanted_ ABSL_GUARDED_BY(mutex_);
+  bool is_at_work_ ABSL_GUARDED_BY(mutex_) = false, is_over_ ABSL_GUARDED_BY(mutex_) = false;
+  Counts counts_ ABSL_GUARDED_BY(mutex_);
   std::thread worker_;  // last: it uses the others
 };
 

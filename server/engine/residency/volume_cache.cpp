@@ -85,7 +85,7 @@ const operators::SampledVolume* samples_of(const Operator& op) {
 }  // namespace
 
 VolumeLease VolumeCache::Place::lease() {
-  const std::lock_guard lock(mutex);
+  const base::MutexLock lock(mutex);
   return volume.lock();
 }
 
@@ -104,7 +104,7 @@ absl::StatusOr<VolumeCache::Key> VolumeCache::key_of(const Operator& op) {
 }
 
 std::shared_ptr<VolumeCache::Place> VolumeCache::place_of(const Key& key) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   // Places that nobody builds in or reads from.
   std::erase_if(places_, [](const auto& p) { return p.second.use_count() == 1 && !p.second->lease(); });
   std::shared_ptr<Place>& place = places_[key];
@@ -126,7 +126,7 @@ absl::StatusOr<VolumeLease> VolumeCache::build(const Operator& op) {
 absl::StatusOr<VolumeLease> VolumeCache::get(const Operator& op) {
   ISOFIELD_ASSIGN_OR_RETURN(const Key key, key_of(op));
   const std::shared_ptr<Place> place = place_of(key);
-  const std::lock_guard lock(place->building);
+  const base::MutexLock lock(place->building);
   if (VolumeLease volume = place->lease()) {
     const operators::SampledVolume* samples = samples_of(op);
     const bool is_same = !samples || samples == volume->samples_.get() || samples->values == volume->samples_->values;
@@ -134,7 +134,7 @@ absl::StatusOr<VolumeLease> VolumeCache::get(const Operator& op) {
     return is_same ? absl::StatusOr<VolumeLease>(volume) : build(op);
   }
   ISOFIELD_ASSIGN_OR_RETURN(VolumeLease volume, build(op));
-  const std::lock_guard publishing(place->mutex);
+  const base::MutexLock publishing(place->mutex);
   place->volume = volume;
   return volume;
 }
@@ -142,7 +142,7 @@ absl::StatusOr<VolumeLease> VolumeCache::get(const Operator& op) {
 std::uint64_t VolumeCache::resident_bytes(const Operator& op) const {
   const absl::StatusOr<Key> key = key_of(op);
   if (!key.ok()) return 0;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto place = places_.find(*key);
   if (place == places_.end()) return 0;
   const VolumeLease volume = place->second->lease();
@@ -150,7 +150,7 @@ std::uint64_t VolumeCache::resident_bytes(const Operator& op) const {
 }
 
 VolumeCache::Usage VolumeCache::usage() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   Usage usage;
   for (const auto& [key, place] : places_) {
     if (const VolumeLease volume = place->lease()) {

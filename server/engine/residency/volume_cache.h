@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <tuple>
 
+#include "base/mutex.h"
 #include "engine/kernels/kernel_cache.h"
 #include "gpu/buffer.h"
 #include "gpu/device.h"
@@ -60,9 +60,9 @@ class VolumeCache {
   // What a volume depends on; samples by a digest of their content.
   using Key = std::tuple<operators::Kind, operators::Silhouette, int, std::size_t>;
   struct Place {
-    std::mutex building;
-    std::mutex mutex;  // of `volume`, so that usage() waits for no builder
-    std::weak_ptr<const Volume> volume;
+    base::Mutex building;
+    base::Mutex mutex;  // of `volume`, so that usage() waits for no builder
+    std::weak_ptr<const Volume> volume ABSL_GUARDED_BY(mutex);
     VolumeLease lease();
   };
 
@@ -72,8 +72,8 @@ class VolumeCache {
 
   gpu::Device& device_;
   KernelCache& kernels_;
-  mutable std::mutex mutex_;
-  std::map<Key, std::shared_ptr<Place>> places_;
+  mutable base::Mutex mutex_;
+  std::map<Key, std::shared_ptr<Place>> places_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace isofield::engine

@@ -46,13 +46,13 @@ absl::StatusOr<std::shared_ptr<const SurfaceIndex>> SurfaceIndexCache::get(const
 }
 
 std::shared_ptr<const SurfaceIndex> SurfaceIndexCache::find(const SceneLease& scene, const SurfaceRequest& request) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const Entry* const found = entries_.find(*scene, [&](const Entry& e) { return e.request == request; });
   return found ? found->index : nullptr;
 }
 
 void SurfaceIndexCache::keep(Entry entry) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   entries_.add(std::move(entry));
   std::size_t bricks = 0, kept = 0;
   entries_.trim(

@@ -5,9 +5,9 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 
+#include "base/mutex.h"
 #include "blobtree/cull/brick_tree.h"
 #include "engine/residency/scene_entries.h"
 
@@ -47,8 +47,8 @@ class SurfaceIndexCache {
   std::shared_ptr<const SurfaceIndex> find(const SceneLease& scene, const SurfaceRequest& request);
   void keep(Entry entry);
 
-  std::mutex mutex_;
-  SceneEntries<Entry> entries_;
+  base::Mutex mutex_;
+  SceneEntries<Entry> entries_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace isofield::engine
