@@ -15,7 +15,7 @@
 namespace isofield {
 namespace {
 
-absl::Status error(const std::string& path) {
+absl::Status watch_error(const std::string& path) {
   return absl::ErrnoToStatus(errno, absl::StrCat("cannot watch ", path));
 }
 
@@ -23,7 +23,7 @@ absl::Status error(const std::string& path) {
 
 absl::StatusOr<std::unique_ptr<FileWatch>> FileWatch::create(const std::string& path) {
   const int descriptor = ::inotify_init1(IN_CLOEXEC);
-  if (descriptor < 0) return error(path);
+  if (descriptor < 0) return watch_error(path);
   std::unique_ptr<FileWatch> watch(new FileWatch(path, descriptor));
   if (auto status = watch->follow(); !status.ok()) return status;
   return watch;
@@ -41,7 +41,7 @@ absl::Status FileWatch::watch(const std::string& path) {
   const int number = ::inotify_add_watch(
       descriptor_, folder.c_str(),
       IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
-  if (number < 0) return error(path);
+  if (number < 0) return watch_error(path);
   names_.emplace_back(number, file.filename().string());
   return absl::OkStatus();
 }
@@ -61,11 +61,11 @@ absl::StatusOr<bool> FileWatch::take_events(bool blocks) {
   do {
     ready = ::poll(&waiting, 1, blocks ? -1 : 0);
   } while (ready < 0 && errno == EINTR);
-  if (ready < 0) return error(path_);
+  if (ready < 0) return watch_error(path_);
   if (ready == 0) return false;
   alignas(inotify_event) char buffer[64 * (sizeof(inotify_event) + NAME_MAX + 1)];
   const ssize_t bytes = ::read(descriptor_, buffer, sizeof(buffer));
-  if (bytes < 0) return errno == EINTR ? absl::StatusOr<bool>(false) : error(path_);
+  if (bytes < 0) return errno == EINTR ? absl::StatusOr<bool>(false) : watch_error(path_);
   bool changed = false;
   for (ssize_t at = 0; at < bytes;) {
     inotify_event event;

@@ -31,7 +31,7 @@ void remove_and_end(int) {
   ::_exit(0);
 }
 
-absl::Status error(const std::string& path) {
+absl::Status write_error(const std::string& path) {
   return absl::ErrnoToStatus(errno, absl::StrCat("cannot write ", path));
 }
 
@@ -55,7 +55,7 @@ absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(const std::string
   struct stat information {};
   if (::stat(path.c_str(), &information) == 0 && !S_ISREG(information.st_mode)) {
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0) return error(path);
+    if (descriptor < 0) return write_error(path);
     return std::unique_ptr<OutputFile>(new OutputFile(path, "", descriptor));
   }
   std::string temporary = path + ".XXXXXX";
@@ -66,7 +66,7 @@ absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(const std::string
   const int descriptor = ::mkostemp(name, O_CLOEXEC);
   if (descriptor < 0) {
     is_pending = 0;
-    return error(path);
+    return write_error(path);
   }
   if (is_short) temporary = pending_path;
   // mkostemp gives the file to its owner alone; a new file is for whom the umask says.
@@ -81,11 +81,11 @@ absl::Status OutputFile::check(const std::string& path) {
   if (path == "-") return absl::OkStatus();
   if (::stat(path.c_str(), &information) == 0 && !S_ISREG(information.st_mode)) {
     if (S_ISDIR(information.st_mode)) errno = EISDIR;
-    return !S_ISDIR(information.st_mode) && ::access(path.c_str(), W_OK) == 0 ? absl::OkStatus() : error(path);
+    return !S_ISDIR(information.st_mode) && ::access(path.c_str(), W_OK) == 0 ? absl::OkStatus() : write_error(path);
   }
   const std::size_t slash = path.rfind('/');
   const std::string directory = slash == std::string::npos ? "." : path.substr(0, slash + 1);
-  return ::access(directory.c_str(), W_OK | X_OK) == 0 ? absl::OkStatus() : error(path);
+  return ::access(directory.c_str(), W_OK | X_OK) == 0 ? absl::OkStatus() : write_error(path);
 }
 
 OutputFile::OutputFile(std::string path, std::string temporary, int descriptor)
@@ -116,7 +116,7 @@ absl::Status OutputFile::rewrite(std::uint64_t offset, const void* data, std::si
   if (temporary_.empty()) return absl::FailedPreconditionError(absl::StrCat(path_, " is not a regular file"));
   if (auto status = flush(); !status.ok()) return status;
   if (::pwrite(descriptor_, data, bytes, static_cast<off_t>(offset)) != static_cast<ssize_t>(bytes)) {
-    return error(path_);
+    return write_error(path_);
   }
   return absl::OkStatus();
 }
@@ -127,7 +127,7 @@ absl::Status OutputFile::commit() {
   if (descriptor == STDOUT_FILENO) return absl::OkStatus();
   descriptor_ = -1;
   if (::close(descriptor) != 0 || (!temporary_.empty() && ::rename(temporary_.c_str(), path_.c_str()) != 0)) {
-    const absl::Status status = error(path_);
+    const absl::Status status = write_error(path_);
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
     is_pending = 0;
     return status;
@@ -148,7 +148,7 @@ absl::Status OutputFile::write_through(const char* data, std::size_t bytes) {
     const ssize_t written = ::write(descriptor_, data, bytes);
     if (written < 0) {
       if (errno == EINTR) continue;
-      return error(path_);
+      return write_error(path_);
     }
     data += written;
     bytes -= static_cast<std::size_t>(written);

@@ -46,12 +46,12 @@ class SceneValue final : public Value {
   const std::shared_ptr<const SceneOperators> operators_;
 };
 
-Entry entry_of(const Record& record) {
+Entry scene_entry(const Record& record) {
   const auto& value = static_cast<const SceneValue&>(*record.value);
   return {record.name, record.version, value.scene(), value.operators()};
 }
 
-Shelf::Words words() {
+Shelf::Words words_of_scenes() {
   const auto not_found = [](const std::string& name, const std::string& there) {
     return absl::StrCat("no scene is named ", base::quoted(name), "; ",
                         there.empty() ? "the catalog is empty" : absl::StrCat("there are ", there));
@@ -62,25 +62,25 @@ Shelf::Words words() {
 }  // namespace
 
 Catalog::Catalog(Store& store, std::uint64_t max_scenes)
-    : shelf_(store, Kind::kScene, {.entries = max_scenes}, words()) {}
+    : shelf_(store, Kind::kScene, {.entries = max_scenes}, words_of_scenes()) {}
 
 absl::StatusOr<Catalog::Put> Catalog::put(const std::string& name, v1::Scene scene,
                                           std::shared_ptr<const SceneOperators> operators,
                                           const Condition& condition) {
   auto value = std::make_shared<const SceneValue>(std::move(scene), std::move(operators));
   ISOFIELD_ASSIGN_OR_RETURN(const Shelf::Put put, shelf_.put(name, std::move(value), condition));
-  return Put{entry_of(put.record), put.replaced_version};
+  return Put{scene_entry(put.record), put.replaced_version};
 }
 
 absl::StatusOr<Entry> Catalog::get(const std::string& name) const {
   ISOFIELD_ASSIGN_OR_RETURN(const Record record, shelf_.get(name));
-  return entry_of(record);
+  return scene_entry(record);
 }
 
 absl::StatusOr<std::vector<Entry>> Catalog::list(const std::string& after, std::size_t most) const {
   ISOFIELD_ASSIGN_OR_RETURN(const std::vector<Record> records, shelf_.list(after, most));
   std::vector<Entry> entries;
-  for (const Record& record : records) entries.push_back(entry_of(record));
+  for (const Record& record : records) entries.push_back(scene_entry(record));
   return entries;
 }
 

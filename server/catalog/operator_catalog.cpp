@@ -35,12 +35,12 @@ class OperatorValue final : public Value {
   const std::uint64_t bytes_;
 };
 
-OperatorEntry entry_of(const Record& record) {
+OperatorEntry operator_entry(const Record& record) {
   const auto& value = static_cast<const OperatorValue&>(*record.value);
   return {record.name, record.version, value.message(), value.op()};
 }
 
-Shelf::Words words() {
+Shelf::Words words_of_operators() {
   const auto not_found = [](const std::string& name, const std::string& there) {
     if (built_in_operator(name)) {
       return absl::StrCat("'", name, "' is a built-in operator: expected a custom one; there are ",
@@ -55,7 +55,7 @@ Shelf::Words words() {
 }  // namespace
 
 OperatorCatalog::OperatorCatalog(Store& store, std::uint64_t max_operators)
-    : shelf_(store, Kind::kOperator, {.entries = max_operators, .bytes = kMaxOperatorBytes}, words()) {}
+    : shelf_(store, Kind::kOperator, {.entries = max_operators, .bytes = kMaxOperatorBytes}, words_of_operators()) {}
 
 absl::StatusOr<OperatorEntry> OperatorCatalog::put(const std::string& name, v1::Operator message,
                                                    std::shared_ptr<const operators::Operator> op) {
@@ -65,18 +65,18 @@ absl::StatusOr<OperatorEntry> OperatorCatalog::put(const std::string& name, v1::
   }
   auto value = std::make_shared<const OperatorValue>(std::move(message), std::move(op));
   ISOFIELD_ASSIGN_OR_RETURN(const Shelf::Put put, shelf_.put(name, std::move(value)));
-  return entry_of(put.record);
+  return operator_entry(put.record);
 }
 
 absl::StatusOr<OperatorEntry> OperatorCatalog::get(const std::string& name) const {
   ISOFIELD_ASSIGN_OR_RETURN(const Record record, shelf_.get(name));
-  return entry_of(record);
+  return operator_entry(record);
 }
 
 absl::StatusOr<std::vector<OperatorEntry>> OperatorCatalog::list(const std::string& after, std::size_t most) const {
   ISOFIELD_ASSIGN_OR_RETURN(const std::vector<Record> records, shelf_.list(after, most));
   std::vector<OperatorEntry> entries;
-  for (const Record& record : records) entries.push_back(entry_of(record));
+  for (const Record& record : records) entries.push_back(operator_entry(record));
   return entries;
 }
 
@@ -109,7 +109,7 @@ absl::StatusOr<std::shared_ptr<const SceneOperators>> OperatorCatalog::operators
                        ": expected a custom operator; ",
                        there.empty() ? "there are none" : absl::StrCat("there are ", there)));
     }
-    const OperatorEntry entry = entry_of(*found[i]);
+    const OperatorEntry entry = operator_entry(*found[i]);
     operators->table.emplace(names[i], entry.op);
     operators->messages.emplace(names[i], entry.message);
   }

@@ -18,12 +18,11 @@
 namespace isofield::operators {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 Silhouette read_sampled_silhouette(const base::FieldReader::Numbers& numbers, base::FieldReader& in) {
   const std::vector<double> s =
       read_samples("silhouette.samples", numbers, 1e-3, 2, 1, "a distance from the origin, within [0.001, 2]", in);
-  Silhouette silhouette{Silhouette::Kind::kSampled, 0, SampledCurve::even(0, kPi / 2, s)};
+  Silhouette silhouette{Silhouette::Kind::kSampled, 0, SampledCurve::even(0, std::numbers::pi / 2, s)};
   if (!in.status().ok()) return silhouette;
   const int last = static_cast<int>(s.size()) - 1;
   for (const int end : {0, last}) {
@@ -34,13 +33,13 @@ Silhouette read_sampled_silhouette(const base::FieldReader::Numbers& numbers, ba
   }
   for (int i = 0; i <= last; ++i) {
     // Everything is told at samples: the monotone cubic between them stays within their range.
-    const double phi = kPi / 2 * i / last;
+    const double phi = std::numbers::pi / 2 * i / last;
     const double square = 1 / std::max(std::cos(phi), std::sin(phi));
     in.number(element_name("silhouette.samples", i), s[i], 0.5001 * square, square * (1 + 1e-9),
               absl::StrCat("a distance within ]", 0.5 * square, ", ", square,
                            "] at this angle: not beyond the unit square, nor within half of it"));
     const bool is_first = 2 * i <= last;
-    const double u = std::min(std::tan(is_first ? phi : kPi / 2 - phi), 1.0);
+    const double u = std::min(std::tan(is_first ? phi : std::numbers::pi / 2 - phi), 1.0);
     using Half = Silhouette::Half;
     const Curve q = silhouette.profile(u, is_first ? Half::kFirst : Half::kSecond);
     // The blend is the only root while k' (1 - M_a - M_b) < 1, and k' is at most 2.

@@ -7,7 +7,6 @@
 namespace isofield::operators {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 }  // namespace
 
@@ -45,24 +44,24 @@ double Opening::theta_min() const {
 Opening Opening::turned() const {
   if (!samples.empty()) {
     Opening turned{};
-    turned.samples = SampledCurve::even(0, kPi, {samples.y().rbegin(), samples.y().rend()});
+    turned.samples = SampledCurve::even(0, std::numbers::pi, {samples.y().rbegin(), samples.y().rend()});
     return turned;
   }
-  return {kPi - alpha2, kPi - alpha1, kPi - alpha0, theta2, theta1, theta0, w1, w0};
+  return {std::numbers::pi - alpha2, std::numbers::pi - alpha1, std::numbers::pi - alpha0, theta2, theta1, theta0, w1, w0};
 }
 
 double picked_opening(double f1, double f2) {
-  return std::min(std::atan2(f2, f1), kPi / 4);
+  return std::min(std::atan2(f2, f1), std::numbers::pi / 4);
 }
 
 Opening camel() {
-  return {0, kPi / 2, kPi, kPi / 4, 0, kPi / 4, 1, 1};
+  return {0, std::numbers::pi / 2, std::numbers::pi, std::numbers::pi / 4, 0, std::numbers::pi / 4, 1, 1};
 }
 Opening organic() {
-  return {0, kPi / 3, 3 * kPi / 4, kPi / 6, 0, kPi / 4, 3, 1};
+  return {0, std::numbers::pi / 3, 3 * std::numbers::pi / 4, std::numbers::pi / 6, 0, std::numbers::pi / 4, 3, 1};
 }
 Opening contact() {
-  return {0, kPi / 2, kPi, 0, kPi / 10, kPi / 4, 1, 0.7};
+  return {0, std::numbers::pi / 2, std::numbers::pi, 0, std::numbers::pi / 10, std::numbers::pi / 4, 1, 0.7};
 }
 
 }  // namespace isofield::operators

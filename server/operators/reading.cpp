@@ -9,8 +9,7 @@
 namespace isofield::operators {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kRadians = kPi / 180;
+constexpr double kRadians = std::numbers::pi / 180;
 constexpr int kLeastSamples = 3, kMostSamples = 4096;
 
 }  // namespace
@@ -71,7 +70,7 @@ Opening read_opening(const v1::Opening& m, base::FieldReader& in) {
     // The parameters stay those of no opening, so that equal samples make equal openings.
     o = {};
     o.samples = SampledCurve::even(
-        0, kPi, read_samples("opening.samples", m.samples(), 0, 45, kRadians, "degrees within [0, 45]", in));
+        0, std::numbers::pi, read_samples("opening.samples", m.samples(), 0, 45, kRadians, "degrees within [0, 45]", in));
     return o;
   }
   if (m.preset() == v1::Opening::PRESET_UNSPECIFIED && any && !all) {

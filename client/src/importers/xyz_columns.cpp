@@ -12,7 +12,7 @@
 namespace isofield {
 namespace {
 
-constexpr absl::string_view kBlanks = " \t";
+constexpr absl::string_view kBlankCharacters = " \t";
 
 // Takes a key or a value off the front of `rest`: a text in quotes, or everything up to one of `ends`.
 absl::string_view take(absl::string_view& rest, absl::string_view ends) {
@@ -29,7 +29,7 @@ absl::string_view take(absl::string_view& rest, absl::string_view ends) {
 }
 
 void drop_blanks(absl::string_view& rest) {
-  rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(kBlanks)));
+  rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(kBlankCharacters)));
 }
 
 // The value of a key in a text such as `key=value key2="a b" flag`, with or without blanks around "=".
@@ -40,7 +40,7 @@ std::optional<absl::string_view> value_of(absl::string_view comment, absl::strin
     drop_blanks(rest);
     if (!absl::ConsumePrefix(&rest, "=")) continue;
     drop_blanks(rest);
-    const absl::string_view value = take(rest, kBlanks);
+    const absl::string_view value = take(rest, kBlankCharacters);
     if (absl::EqualsIgnoreCase(key, wanted)) return value;
   }
   return std::nullopt;
