@@ -10,7 +10,7 @@ import sys
 import tempfile
 import unittest
 
-# The rooms that each room may include, beside itself and base. The arrows point down: a room knows nobody above it.
+# The rooms that each room may include, beside itself and base. The arrows point down: a room includes no room above it.
 BLOBTREE = ["blobtree/geometry", "blobtree/primitives", "blobtree/scene", "blobtree/tape", "blobtree/cull"]
 BELOW_ENGINE = BLOBTREE + ["operators", "gpu", "shaders"]
 ENGINE_ROOMS = ["engine/kernels", "engine/residency", "engine/points", "engine/mesh", "engine/simplify",
@@ -22,7 +22,7 @@ ARROWS = {
     "scenes": ["catalog", "engine", "operators"] + BLOBTREE,
     "catalog": BLOBTREE + ["operators"],
     "reference": BLOBTREE + ["operators"],
-    # The facade, and the rooms that it joins.
+    # The facade may include the rooms that it joins.
     "engine": ENGINE_ROOMS + ["engine/session"] + BELOW_ENGINE,
     "engine/surface": ["engine/mesh", "engine/points", "engine/kernels", "engine/residency", "engine/session"]
                       + BELOW_ENGINE,
@@ -41,10 +41,10 @@ ARROWS = {
     "gpu": [],
     "base": [],
 }
-# Files at engine's own level that lie below its rooms; the others are its facade.
+# These files lie in engine/ itself but below its rooms. The other files of engine/ are its facade.
 SESSION_FILES = ["session", "request_times", "dealing"]
 
-# What comes from elsewhere, and the rooms that alone may include it.
+# Libraries and generated headers from elsewhere, with the only rooms that may include them.
 OUTSIDE = [
     (re.compile(r"vulkan/"), ["gpu"]),
     (re.compile(r"(grpc|grpcpp)/|isofield/v1/.*\.grpc\.pb\.h$"), ["rpc", "daemon"]),
