@@ -58,7 +58,7 @@ class KernelCache {
         specialised_(options.specialised ? std::move(options.specialised) : std::make_shared<SpecialisedKernels>()) {}
 
   // Returns the kernel, and compiles it if need be. It calls `waits` before it waits for the driver to compile. Errors
-  // are those of the driver, and are not kept: a later call compiles again.
+  // of the specialiser and the driver are returned and not kept: a later call compiles again.
   absl::StatusOr<gpu::SharedPipeline> get(const shaders::Spirv& shader, const KernelKind& kind = {},
                                           const std::function<void()>& waits = {});
   // Returns the variant of the shader that suits the device.
