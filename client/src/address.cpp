@@ -23,7 +23,7 @@ absl::Status refuse(const std::string& address, const std::string& why) {
       absl::StrCat("server address \"", address, "\": ", why, "; expected HOST:PORT, [IPV6]:PORT or unix:PATH"));
 }
 
-// The error with which a connection ends, or 0 where there is one, or none within the time.
+// Tries to connect. Returns the error of the attempt, or 0 where it connects or where nothing is known within the time.
 int connection_error(const addrinfo& to) {
   constexpr int kMilliseconds = 500;
   const int socket = ::socket(to.ai_family, to.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, to.ai_protocol);

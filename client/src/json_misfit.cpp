@@ -19,7 +19,7 @@ using google::protobuf::EnumDescriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::OneofDescriptor;
 
-// The deepest nesting that is read. No message of the contract needs so much, and the stack allows it.
+// The deepest nesting that is read. No message of the .proto files needs so much, and the stack allows it.
 constexpr int kMostDepth = 100;
 
 // The field of this name, which may be the one of the .proto file or the one of JSON; nullptr where there is none.
@@ -45,6 +45,7 @@ std::vector<std::string> enum_names(const EnumDescriptor& type) {
   return names;
 }
 
+// Reads a text along the fields of a message type, up to the first misfit.
 class Walker {
  public:
   explicit Walker(absl::string_view text) : text_(text) {}
@@ -76,7 +77,7 @@ class Walker {
     const std::string found = rest.empty() ? "the text ends" : absl::StrCat("\"", rest.substr(0, length), "\"");
     return fail(JsonMisfit::Kind::kSyntax, at_, absl::StrCat(found, " where ", expected, " was expected"));
   }
-  // `path` is what `text` is about: "nodes[2].sphere".
+  // `path` is the place that `text` is about, such as "nodes[2].sphere".
   bool meaning(std::size_t at, const std::string& path, absl::string_view text) {
     return fail(JsonMisfit::Kind::kMeaning, at, absl::StrCat(with_name(path), text));
   }
@@ -247,7 +248,7 @@ class Walker {
 
   const absl::string_view text_;
   std::size_t at_ = 0;
-  std::size_t node_at_ = 0;  // where the object begins that is an item of a list of the outermost message
+  std::size_t node_at_ = 0;  // where the last item of a list of the outermost message begins
   JsonMisfit misfit_;
 };
 

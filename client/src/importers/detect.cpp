@@ -20,7 +20,7 @@
 namespace isofield {
 namespace {
 
-// Bytes and rows of a text that are looked at. PDB files may have longer headers, but their first line tells the
+// How many bytes and rows of a text are looked at. PDB files may have longer headers, but their first line tells the
 // format.
 constexpr std::size_t kLookedAt = 1 << 16;
 constexpr std::size_t kRowsLookedAt = 200;
@@ -196,7 +196,7 @@ FileKind kind_of(ImportFormat format) {
 }  // namespace
 
 absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::string& path) {
-  // A packed file is named after the file that it holds.
+  // The name of a packed file is that of the file in it, with .gz after it.
   const std::string name(absl::StripSuffix(path, ".gz"));
   if (is_json(content)) return is_mmjson(content) ? FileKind::kMmcif : FileKind::kSceneJson;
   const bool is_named_message = absl::EndsWithIgnoreCase(name, ".pb");

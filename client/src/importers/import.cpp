@@ -15,7 +15,7 @@
 namespace isofield {
 namespace {
 
-// The importer of a kind of file; nothing for scenes, which need none.
+// Returns the importer of a kind of file, or nothing for scenes, which need none.
 std::optional<ImportFormat> format_of(FileKind kind) {
   switch (kind) {
     case FileKind::kSceneJson:
@@ -38,7 +38,7 @@ std::optional<ImportFormat> format_of(FileKind kind) {
 }  // namespace
 
 std::optional<ImportFormat> import_format(const std::string& path) {
-  // A packed file has the format of what it unpacks to.
+  // A packed file has the format of the file in it.
   absl::string_view name = path;
   if (absl::EndsWithIgnoreCase(name, ".gz")) name.remove_suffix(3);
   constexpr std::array<std::pair<const char*, ImportFormat>, 8> kExtensions = {{{".swc", ImportFormat::kSwc},

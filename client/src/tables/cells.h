@@ -11,8 +11,8 @@ namespace isofield {
 
 // The character that separates the cells of a line: ';', ',' or a tab, each of which ends one cell; or kBlanks.
 using Separator = char;
-// With kBlanks, any run of blanks, tabs, commas and semicolons separates two cells. In a line that also has blanks, a
-// comma between digits is refused, since it could be a decimal comma.
+// kBlanks means that any run of blanks, tabs, commas and semicolons separates two cells. In a line that also has
+// blanks, a comma between digits is refused, since it could be a decimal comma.
 inline constexpr Separator kBlanks = ' ';
 
 // Guesses the separator of a line. Characters within double quotes do not count.

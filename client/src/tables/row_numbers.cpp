@@ -75,7 +75,8 @@ RowNumbers::RowNumbers(Separator separator, std::vector<std::size_t> places, Col
   }
 }
 
-// Reads the number at the start of a cell. Returns its end, after closing quotes if it is quoted; nullptr: it is none.
+// Reads the number at the start of a cell. Returns its end, which is after the closing quotes if it is quoted, or
+// nullptr where there is no number.
 const char* RowNumbers::scan_cell(const char* begin, const char* end, double& value) const {
   if (begin != end && *begin == '"') {
     const char* const close = std::find(begin + 1, end, '"');
@@ -94,7 +95,8 @@ const char* RowNumbers::scan_cell(const char* begin, const char* end, double& va
 }
 
 // The fast path, for rows as programs write them: the wanted columns come first, with one separator and nothing else
-// between them. `at` is the start of the row, and becomes the end of the last wanted cell. False: the row is different.
+// between them. `at` is the start of the row, and becomes the end of the last wanted cell. Returns false where the row
+// is different.
 bool RowNumbers::parse_plain(const char*& at, const char* end, double* numbers) const {
   for (std::size_t i = 0; i < wanted_; ++i) {
     if (i > 0 && (at == end || *at++ != separator_)) return false;
