@@ -55,7 +55,8 @@ struct Client::Impl {
                                 const ResultSink& sink);
   // Evaluates any number of points as one stream of chunks, and tries this once.
   absl::Status stream(const v1::SceneRef& scene, bool gradient, const ChunkSource& source, const ResultSink& sink);
-  // Returns memory for one evaluation. Null: the evaluation sends its arrays through the connection instead.
+  // Returns memory for one evaluation. Where it returns null, the evaluation sends its arrays through the connection
+  // instead.
   std::unique_ptr<SharedMemory> take_shared_memory(std::size_t bytes);
 
   static void set_timeout(grpc::ClientContext& context, std::optional<std::chrono::milliseconds> timeout) {

@@ -22,7 +22,8 @@ using google::protobuf::OneofDescriptor;
 // The deepest nesting that is read. No message of the .proto files needs so much, and the stack allows it.
 constexpr int kMostDepth = 100;
 
-// The field of this name, which may be the one of the .proto file or the one of JSON; nullptr where there is none.
+// Returns the field of this name, which may be the one of the .proto file or the one of JSON, or nullptr where there is
+// none.
 const FieldDescriptor* field_of(const Descriptor& type, const std::string& name) {
   if (const FieldDescriptor* field = type.FindFieldByName(name)) return field;
   for (int i = 0; i < type.field_count(); ++i) {

@@ -23,7 +23,7 @@ class SharedMemory {
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
 
-  // The name of the region in requests.
+  // Returns the name of the region in requests.
   const std::string& region() const { return region_; }
   std::byte* data() const { return data_; }
   // Returns false where the daemon is gone. A daemon that took its place does not know the region.
@@ -41,7 +41,7 @@ class SharedMemory {
 // Keeps a few regions for later evaluations. Any number of threads may use it at the same time.
 class SharedMemoryPool {
  public:
-  // Takes a region out of the pool. Null: the pool has none that a daemon knows.
+  // Takes a region out of the pool. Returns null where the pool has none that a daemon knows.
   std::unique_ptr<SharedMemory> take();
   // Puts a region back, or frees it where the pool is full.
   void give(std::unique_ptr<SharedMemory> memory);

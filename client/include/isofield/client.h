@@ -39,7 +39,7 @@ struct ClientOptions {
   int attempts = 3;
   // The pause before the second attempt while the server is UNAVAILABLE. It doubles before each further attempt.
   std::chrono::milliseconds backoff = std::chrono::milliseconds(100);
-  // True sends the points and results of streamed evaluations through memory that the client shares with the server,
+  // If true, the points and results of streamed evaluations go through memory that the client shares with the server,
   // instead of the connection. The server must offer this (isofieldd --shared-memory), be reached by a unix socket, and
   // run as the same user. Elsewhere the option changes nothing.
   bool shared_memory = false;
@@ -80,7 +80,7 @@ struct RayHits {
   // The cell size that the server used, in model units.
   double cell_size = 0;
 
-  // Stands in `nodes` for a ray that hits nothing.
+  // This value stands in `nodes` for a ray that hits nothing.
   static constexpr std::uint32_t kNothing = ~0u;
 };
 

@@ -46,8 +46,8 @@ struct ImportOptions {
   // SWC: the least radius of a sample, > 0. A sample that is thinner or has no usable radius gets this one. Without
   // this option a sample that has no usable radius gets the radius of its parent.
   std::optional<double> min_radius;
-  // SWC: true multiplies lengths by the "# SCALE x y z" of the file: each coordinate by the factor of its axis, radii
-  // by the geometric mean of the three factors.
+  // SWC: if true, lengths are multiplied by the "# SCALE x y z" of the file: each coordinate by the factor of its axis,
+  // radii by the geometric mean of the three factors.
   bool apply_scale = false;
   // Molecules: the frame of an XYZ file, or the model of a PDB or mmCIF file, that is imported, counted from 1. Without
   // it the first one is imported.
@@ -64,9 +64,9 @@ struct ImportOptions {
   // Molecules: whether hydrogen and its isotopes are imported. PDB and mmCIF: whether water is.
   bool keep_hydrogens = true;
   bool keep_waters = false;
-  // Becomes Scene::unit. If it is empty, the unit is "angstrom" for molecules and "um" for neurons, since SWC does not
-  // state one and its largest archive uses micrometres; bare points then have no unit. A file in voxels needs the size
-  // of a voxel: "8 nm".
+  // The unit of the scene (Scene.unit). If it is empty, the unit is "angstrom" for molecules and "um" for neurons,
+  // since SWC does not state one and its largest archive uses micrometres; bare points then have no unit. A file in
+  // voxels needs the size of a voxel: "8 nm".
   std::string unit;
 };
 
@@ -89,9 +89,9 @@ struct ImportReport {
   std::size_t pieces = 0;
   std::vector<Finding> findings;
 
-  // True where a finding is damage.
+  // Returns true where a finding is damage.
   bool damaged() const;
-  // The report as lines for a person; the first line is a summary.
+  // Returns the report as lines for a person; the first line is a summary.
   std::string text() const;
 };
 

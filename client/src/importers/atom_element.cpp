@@ -46,8 +46,8 @@ constexpr std::array<absl::string_view, 13> kHeavySymbols = {"CL", "CO", "CR", "
 // Names, in capitals, that programs give to points without an atom: dummies, ghosts and lone pairs.
 constexpr std::array<absl::string_view, 5> kNoAtoms = {"BQ", "DU", "DUM", "LP", "XX"};
 
-// Returns the lightest element that a name may mean, by its letters in capitals: "CA" is carbon. Null where there is
-// none.
+// Returns the lightest element that a name may mean, by its letters in capitals ("CA" is carbon), or null where there
+// is none.
 const Element* lightest(absl::string_view letters) {
   if (letters.empty() || is_one_of(letters, kNoAtoms)) return nullptr;
   const bool light = absl::string_view("CNOHSPD").find(letters[0]) != absl::string_view::npos;
@@ -68,8 +68,9 @@ const Element* element_in_polymer(absl::string_view letters, const gemmi::Residu
   return info.is_standard() ? nullptr : lightest(letters);
 }
 
-// Returns the element of an ion. An ion, which is the only atom of its residue, has the name of its residue: "CA" in
-// "CA", "ZN" in "ZN2", "NA" in "NA+". The names that CHARMM gives to ions are known too. Null where the atom is no ion.
+// Returns the element of an ion, or null where the atom is no ion. An ion, which is the only atom of its residue, has
+// the name of its residue: "CA" in "CA", "ZN" in "ZN2", "NA" in "NA+". The names that CHARMM gives to ions are known
+// too.
 const Element* element_of_ion(absl::string_view letters, absl::string_view residue) {
   constexpr std::array<std::pair<absl::string_view, absl::string_view>, 9> kCharmm = {{{"SOD", "NA"},
                                                                                        {"CLA", "CL"},

@@ -22,15 +22,15 @@ enum class NameColumns {
   kLeftJustified,
 };
 
-// Returns the element of an atom for which the file states none, by its name and residue. A right-justified name is
-// given with the blanks of its four columns. Amino acids and nucleotides hold light elements only, and an ion has the
-// name of its residue. Any other name that may mean a metal or a light atom of a ligand ("CD", "NA", "HG") means the
-// light one. Null where the element stays unknown.
+// Returns the element of an atom for which the file states none, by its name and residue, or null where it stays
+// unknown. A right-justified name is given with the blanks of its four columns. Amino acids and nucleotides hold light
+// elements only, and an ion has the name of its residue. Any other name that may mean a metal or a light atom of a
+// ligand ("CD", "NA", "HG") means the light one.
 const Element* element_of_name(absl::string_view name, absl::string_view residue, NameColumns columns);
 
-// Returns the element of the label of an atom in an XYZ file: a symbol in any case, an atomic number, an isotope
-// ("13C", "2H"), an ion ("Fe3+") or a symbol with a number or other suffix ("C12", "Fe_2"). A label in capitals with a
-// suffix that may mean a metal or a light atom ("CA1") means the light one. Null where the element stays unknown.
+// Returns the element of the label of an atom in an XYZ file, or null where it stays unknown. A label is a symbol in
+// any case, an atomic number, an isotope ("13C", "2H"), an ion ("Fe3+") or a symbol with a number or other suffix
+// ("C12", "Fe_2"). A label in capitals with a suffix that may mean a metal or a light atom ("CA1") means the light one.
 const Element* element_of_label(absl::string_view label);
 
 // Returns the element of an atom type of a force field. The name is read like a label, but capitals without a suffix

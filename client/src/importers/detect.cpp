@@ -79,7 +79,8 @@ bool is_pdb_record(absl::string_view line) {
 }
 
 // Tells molecules from points that follow a count: XYZ has "count, comment, lines of: element x y z", and Tinker has
-// "count title, lines of: index element x y z ...". Nothing where the text begins with no count or holds points.
+// "count title, lines of: index element x y z ...". Returns nothing where the text begins with no count or holds
+// points.
 std::optional<FileKind> kind_by_count(absl::string_view text) {
   LineReader lines(text);
   absl::string_view count, second, third;
@@ -116,7 +117,8 @@ std::optional<FileKind> kind_by_count(absl::string_view text) {
   return std::nullopt;
 }
 
-// True where most lines are samples of different ids, one of which is a root and most of which have a known parent.
+// Returns true where most lines are samples of different ids, one of which is a root and most of which have a known
+// parent.
 bool is_swc(absl::string_view text) {
   LineReader lines(text);
   absl::string_view line;

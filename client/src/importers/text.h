@@ -23,7 +23,7 @@ class LineReader {
   bool next(absl::string_view& line);
   // Does the same, but keeps blanks at both ends, for formats of fixed columns.
   bool next_raw(absl::string_view& line);
-  // The number of the line that was read last, from 1.
+  // Returns the number of the line that was read last, from 1.
   std::size_t number() const { return number_; }
 
  private:

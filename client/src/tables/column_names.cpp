@@ -39,7 +39,7 @@ const Family kOrigins{"o", kOriginWords, "ox, oy and oz"};
 const Family kDirections{"d", kDirectionWords, "dx, dy and dz"};
 const Family kNormals{"n", kNormalWords, "nx, ny and nz"};
 
-// The words of a name in lower case, without a unit: "Pos_X [nm]" becomes "pos" and "x".
+// Returns the words of a name in lower case, without a unit: "Pos_X [nm]" becomes "pos" and "x".
 std::vector<std::string> words_of(absl::string_view name) {
   const std::size_t bracket = name.find_first_of("([{/");
   if (bracket != absl::string_view::npos && bracket > 0) name = name.substr(0, bracket);

@@ -39,7 +39,7 @@ bool has_comma_between_digits(absl::string_view text) {
   return false;
 }
 
-// True where commas in the row could be decimal commas.
+// Returns true where commas in the row could be decimal commas.
 bool has_decimal_commas(absl::string_view row) {
   return row.find_first_of(" \t") != absl::string_view::npos && has_comma_between_digits(row);
 }
