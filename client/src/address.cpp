@@ -75,13 +75,13 @@ absl::StatusOr<std::string> grpc_target(const std::string& address) {
   const bool bracketed = host.front() == '[' && host.back() == ']' && host.size() > 2;
   for (const char c : host) {
     if (absl::ascii_isspace(c) || c == '/' || (c == ':' && !bracketed)) {
-      return refuse(address, absl::StrCat("\"", host, "\" is no host"));
+      return refuse(address, absl::StrCat("\"", host, "\" is not a host"));
     }
   }
   unsigned port = 0;
   if (port_text.empty() || !absl::ascii_isdigit(port_text.front()) || !absl::SimpleAtoi(port_text, &port) || port < 1 ||
       port > 65535) {
-    return refuse(address, absl::StrCat("\"", port_text, "\" is no port within [1, 65535]"));
+    return refuse(address, absl::StrCat("\"", port_text, "\" is not a port within [1, 65535]"));
   }
   return absl::StrCat("dns:///", address);
 }

@@ -146,15 +146,15 @@ absl::StatusOr<Mesh> BrickMesh::join() const {
       const Numbers& n = named[corner >> kBelowShift];
       if ((corner & kVertexBits) >= n.count) {
         return absl::InternalError(absl::StrCat("corner ", corner, " in ", text(place), " names vertex ",
-                                                corner & kVertexBits, " of a brick beside it that has ", n.count,
+                                                corner & kVertexBits, " of a neighbouring brick that has ", n.count,
                                                 ": it has not been sent, or the part that holds it is missing"));
       }
       mesh.triangles.push_back(n.first + (corner & kVertexBits));
     }
   }
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
-    return absl::InternalError(
-        absl::StrCat("there are normals of ", mesh.normals.size() / 3, " of ", mesh.vertex_count(), " vertices"));
+    return absl::InternalError(absl::StrCat(mesh.normals.size() / 3, " of ", mesh.vertex_count(),
+                                            " vertices have normals; expected all or none"));
   }
   mesh.summary.set_vertices(mesh.vertex_count());
   mesh.summary.set_triangles(mesh.triangle_count());

@@ -50,7 +50,7 @@ absl::Status check(const Mesh& mesh) {
   const auto largest = std::max_element(mesh.triangles.begin(), mesh.triangles.end());
   if (largest != mesh.triangles.end() && *largest >= mesh.vertex_count()) {
     return absl::InternalError(
-        absl::StrCat("the server sent a triangle of vertex ", *largest, " of ", mesh.vertex_count()));
+        absl::StrCat("the server sent a triangle that names vertex ", *largest, " of ", mesh.vertex_count()));
   }
   return check_creases(mesh);
 }

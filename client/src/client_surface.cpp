@@ -79,8 +79,8 @@ absl::StatusOr<RayHits> Client::cast_rays(v1::CastRaysRequest request, std::span
                                           std::span<const float> directions) {
   if (auto status = check_rows("origins", origins); !status.ok()) return status;
   if (origins.size() != directions.size()) {
-    return absl::InvalidArgumentError(absl::StrCat("directions: ", directions.size(),
-                                                   " coordinates; expected as many as the origins', ", origins.size()));
+    return absl::InvalidArgumentError(absl::StrCat("directions: ", directions.size(), " coordinates; expected ",
+                                                   origins.size(), ", as many as the origins have"));
   }
   request.set_max_answer_bytes(kMaxAnswerBytes);
   RayHits hits;

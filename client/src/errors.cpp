@@ -42,7 +42,7 @@ absl::Status from_grpc(const grpc::Status& status, const std::string& address) {
     case absl::StatusCode::kResourceExhausted:
       if (absl::StrContains(detail, "message larger than max")) {
         return absl::ResourceExhaustedError(
-            absl::StrCat("the request does not fit one message (", detail, "); isofieldd's limits: isofield info"));
+            absl::StrCat("the request does not fit one message (", detail, "); \"isofield info\" shows the limits"));
       }
       break;
     default:

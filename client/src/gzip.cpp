@@ -58,7 +58,7 @@ absl::StatusOr<std::string> gunzip(absl::string_view data, std::size_t limit) {
     // Zeros after the last member are padding, which tapes and block devices add.
     if (!is_gzip(data)) {
       if (data.find_first_not_of('\0') == data.npos) break;
-      return damaged("something else follows it");
+      return damaged("other data follows it");
     }
     if (auto status = unpack_member(data, limit, unpacked); !status.ok()) return status;
   }

@@ -155,7 +155,7 @@ class Walker {
     const std::size_t start = (skip_space(), at_);
     if (!next_is('{')) {
       if (at_ >= text_.size() || !absl::StrContains("\"[-0123456789tf", text_.substr(at_, 1))) return syntax("\"{\"");
-      return meaning(start, path.empty() ? "the text" : path, " is no object; expected fields between { and }");
+      return meaning(start, path.empty() ? "the text" : path, " is not an object; expected fields between { and }");
     }
     if (depth == 1) node_at_ = start;
     std::map<const FieldDescriptor*, std::size_t> stated;
@@ -168,7 +168,7 @@ class Walker {
       const FieldDescriptor* field = field_of(type, key);
       if (field == nullptr) return unknown_field(type, key, key_at, path);
       const std::string in = path.empty() ? key : absl::StrCat(path, ".", key);
-      if (!stated.emplace(field, key_at).second) return meaning(key_at, in, " stands there twice; expected it once");
+      if (!stated.emplace(field, key_at).second) return meaning(key_at, in, " is stated twice; expected it once");
       const OneofDescriptor* oneof = next_is('n') ? nullptr : field->containing_oneof();
       if (oneof != nullptr && !chosen.emplace(oneof, field).second) {
         return meaning(key_at, path.empty() ? "the text" : path,
@@ -228,7 +228,7 @@ class Walker {
     const std::vector<std::string> names = field_names(type);
     return meaning(at, path.empty() ? "the " + absl::AsciiStrToLower(type.name()) : path,
                    absl::StrCat(" has no field \"", key.substr(0, 60), "\"", did_you_mean(key, names), "; ",
-                                names.empty() ? "it has none" : "expected one of " + absl::StrJoin(names, ", ")));
+                                names.empty() ? "it has no fields" : "expected one of " + absl::StrJoin(names, ", ")));
   }
 
   // Adds the node's name to its place, if it has one: "nodes[2] 'arm'.sphere". The whole node is read for this, since

@@ -160,7 +160,7 @@ TEST(BrickMesh, NormalsMayBeAbsentFromAll) {
   ASSERT_TRUE(bricks.apply(Message().add({9, 9, 9}, 1, {}).bricks()).ok());
   const auto mixed = bricks.join();
   EXPECT_EQ(mixed.status().code(), absl::StatusCode::kInternal);
-  EXPECT_TRUE(absl::StrContains(mixed.status().message(), "normals of 1 of 6")) << mixed.status();
+  EXPECT_TRUE(absl::StrContains(mixed.status().message(), "1 of 6 vertices have normals")) << mixed.status();
 }
 
 TEST(BrickMesh, EmptyMessagesChangeNothing) {
@@ -230,7 +230,7 @@ TEST(BrickMesh, RefusesCornersOfVerticesThatAreNotThere) {
   BrickMesh bricks;
   ASSERT_TRUE(bricks.apply(Message().add({4, 5, 6}, 3, {}).add({5, 5, 6}, 1, {0, 0, kBelowX | 3}).bricks()).ok());
   EXPECT_EQ(bricks.join().status().code(), absl::StatusCode::kInternal);
-  EXPECT_TRUE(absl::StrContains(bricks.join().status().message(), "vertex 3 of a brick beside it that has 3"))
+  EXPECT_TRUE(absl::StrContains(bricks.join().status().message(), "vertex 3 of a neighbouring brick that has 3"))
       << bricks.join().status();
 }
 

@@ -123,8 +123,8 @@ struct Slice {
 //
 // A method that fails returns a status whose message says what is wrong and what to do. UNAVAILABLE: no server answers,
 // or the connection was lost. DEADLINE_EXCEEDED: the request took longer than ClientOptions allows. CANCELLED: a
-// callback asked for it. INTERNAL: the answer of the server is malformed. Other errors come from the server, as the
-// .proto files state them.
+// callback asked for it. INTERNAL: the answer of the server is malformed. UNIMPLEMENTED: the server does not know the
+// request. Other errors come from the server, as the .proto files state them.
 class Client {
  public:
   // The most points in one chunk of a streamed evaluation: 768 KiB of coordinates, or 1 MiB of values with gradients.

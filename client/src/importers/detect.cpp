@@ -221,7 +221,7 @@ absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::stri
   if (has_points(start)) return FileKind::kPoints;
   if (by_name) return kind_of(*by_name);
   if (absl::EndsWithIgnoreCase(name, ".json")) return FileKind::kSceneJson;
-  return refuse(path, "nothing in it says what it is");
+  return refuse(path, "its format cannot be recognised");
 }
 
 }  // namespace isofield

@@ -132,7 +132,7 @@ absl::StatusOr<Imported> import_file(const std::string& path, const ImportOption
   if (!loaded.ok()) return loaded.status();
   if (!loaded->report) {
     return absl::InvalidArgumentError(
-        absl::StrCat(path, ": a scene already; expected a neuron, a molecule or points to make one of"));
+        absl::StrCat(path, ": already a scene; expected a neuron, a molecule or points to import"));
   }
   return Imported{std::move(loaded->scene), *std::move(loaded->report)};
 }

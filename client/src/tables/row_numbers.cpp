@@ -183,7 +183,7 @@ absl::Status RowNumbers::refuse(absl::string_view row, std::size_t column) const
     expected = wanted_ == 3 ? "expected three numbers x,y,z" : absl::StrCat("expected a number in column ", column + 1);
   }
   if (separator_ != ';' && has_decimal_commas(absl::StripAsciiWhitespace(row))) {
-    absl::StrAppend(&expected, "; decimal commas are read only where semicolons part the cells");
+    absl::StrAppend(&expected, "; decimal commas are read only where semicolons separate the cells");
   }
   return absl::InvalidArgumentError(expected);
 }
