@@ -25,7 +25,7 @@ constexpr char kVersion = 1;
 // A packet may bring up to this many descriptors. One is expected; all are closed after the packet is answered.
 constexpr std::size_t kMostDescriptors = 4;
 
-// What one read from a connection yields; it has no bytes if there is nothing to read yet.
+// The result of one read from a connection. It has no bytes if there is nothing to read yet.
 struct Packet {
   bool is_over = false;  // the client has closed the connection, or it has failed
   std::string bytes;

@@ -21,8 +21,8 @@ struct DeviceOptions {
   std::string name;
   // Runs under the Khronos validation layer. Device::create() fails if the layer is not installed.
   bool validation = false;
-  // Never maps or borrows memory, as if the host could not see the device's. Tests use this to take the way of discrete
-  // devices on any device.
+  // Makes the profile neither map nor borrow memory, as if the host could not see the device's memory. Tests use this
+  // to take the way of discrete devices on any device.
   bool always_stage = false;
   // Called with each validation message, from any thread.
   std::function<void(const std::string&)> on_validation_message;

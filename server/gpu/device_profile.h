@@ -42,8 +42,8 @@ struct DeviceProfile {
 
   // The most rays that are followed at once.
   std::uint64_t rays = 1u << 15;
-  // In one round, all rays together pass through at most round_bricks bricks, and each through at most
-  // round_bricks_per_ray.
+  // Rays are followed in rounds. In a round all rays together pass through about round_bricks bricks, and each ray
+  // through at least one and at most round_bricks_per_ray.
   std::uint64_t round_bricks = 1u << 16, round_bricks_per_ray = 64;
 
   // A device that borrows memory uses arrays of at least so many bytes where the host has them.
@@ -54,7 +54,7 @@ struct DeviceProfile {
 
   // The invocations of a subgroup load the words of a tape together, and share them by shuffles.
   bool shares_loads = true;
-  // In kernels that give each brick a workgroup, the workgroup has 8 invocations; if this is false it has 32.
+  // Kernels that give each brick a workgroup have 8 invocations in it, or 32 if this is false.
   bool has_narrow_workgroups = true;
   // The driver compiles a kernel when it is first dispatched, and not when it is made.
   bool compiles_late = true;

@@ -14,14 +14,14 @@ namespace isofield::reference {
 // The field at a point.
 struct Sample {
   double value = 0;
-  // The derivative of `value`. It is 0 where there is no derivative: at centres, axes and medial surfaces of shapes.
-  // Where the operands of max, min or difference are equal, it is that of the first operand.
+  // The derivative of `value`. It is 0 where there is no derivative: at centres, axes and medial surfaces of shapes. If
+  // the operands of max, min or difference are equal, it is that of the first operand.
   blobtree::dvec3 gradient;
 };
 
-// Never changes once it is constructed, so any number of threads may evaluate at once. Values and gradients are finite
-// everywhere. To find out whether a point is close to a crease, use tests/support/smoothness.h, which compares the
-// gradients around it.
+// An evaluator does not change once it is constructed, so any number of threads may use it at once. Values and
+// gradients are finite everywhere. To find out whether a point is close to a crease, use tests/support/smoothness.h,
+// which compares the gradients around it.
 class Evaluator {
  public:
   // Copies what it needs of `scene`. It takes memory in proportion to the number of nodes, where a shared node counts

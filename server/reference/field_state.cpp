@@ -192,7 +192,7 @@ FieldState combine(const OperatorUse& use, const std::vector<FieldState>& operan
         continue;
       }
       if (form == Form::kDifference && b.field.v <= 0 && r.field.v < 1) continue;
-      // Where a complement is not positive, the union of the two is the larger one, so the result is the smaller
+      // Neither complement is positive here. The union of the two is then the larger one, so the result is the smaller
       // operand.
       if (form == Form::kIntersection && r.field.v >= 1 && b.field.v >= 1) {
         r = minimum(r, b);

@@ -27,7 +27,7 @@ struct FieldState {
 struct OperatorUse {
   const operators::Operator* op = nullptr;
   operators::Law law = operators::Law::kPositive;  // the law of the operands
-  // For steered blends: the largest range among the primitives and conversions below, in the unit of the node's frame.
+  // Steered blends need the largest range among the primitives and conversions below, in the unit of the node's frame.
   // A steering vector counts as null where it is small compared with 1 / length.
   double length = 1;
   // It is set if the operands' derivatives are with respect to coordinates of the world, and is then

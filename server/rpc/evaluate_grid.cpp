@@ -78,7 +78,7 @@ GridEvaluation::GridEvaluation(engine::FieldEvaluator& fields, const engine::Res
 
 absl::Status GridEvaluation::run() {
   const std::uint32_t all = lattice_.cells[2];
-  // At least one whole layer of bricks is evaluated at once.
+  // Each step evaluates whole layers of bricks, at least one.
   const std::uint64_t bricks = std::max<std::uint64_t>(std::min(most_, kGridSlab) / layer_ / blobtree::kBrickCells, 1);
   const auto step = static_cast<std::uint32_t>(std::min<std::uint64_t>(bricks * blobtree::kBrickCells, all + 3));
   for (std::uint32_t k = 0; k < all; k += step) {

@@ -28,8 +28,8 @@ void refuse(const std::string& what, const std::string& name, v1::ServerReflecti
   response.mutable_error_response()->set_error_message(absl::StrCat("no ", what, " is named ", base::quoted(name)));
 }
 
-// Adds a file and those that it imports, except for files that this stream has already had. A file that is asked for is
-// always added.
+// Adds a file and the files that it imports, except for those that this stream has sent before. A file that the client
+// asks for is always added.
 void add_files(const FileDescriptor& file, bool is_asked_for, absl::flat_hash_set<std::string>& sent,
                v1::FileDescriptorResponse& response) {
   if (!sent.insert(std::string(file.name())).second && !is_asked_for) return;
