@@ -12,9 +12,9 @@ layout(std430, binding = BINDING_MESH_JOBS) readonly buffer Jobs { uint jobs[]; 
 layout(std430, binding = BINDING_MESH_VERTICES) readonly buffer Vertices { uint vertex_list[]; };
 layout(std430, binding = BINDING_MESH_POSITIONS) buffer Positions { float positions[]; };
 
-// Each round takes the tangent planes anew, on the way from the vertex to a crossing on every side: what the curvature of
-// a side adds falls with the square of that distance, as does what a steering direction lacks of the gradient with the
-// distance.
+// Each round takes the tangent planes anew, on the way from the vertex to a crossing on every side: what the curvature
+// of a side adds falls with the square of that distance, as does what a steering direction lacks of the gradient with
+// the distance.
 const int ROUNDS = 3;
 const float FIRST_PULL = 0.35, PULL = 0.07;
 // And a little further out of the cell along the side: where the crease lies in a face, a side may lie beyond it.

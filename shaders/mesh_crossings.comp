@@ -42,7 +42,8 @@ void main() {
     vec3 beside = begins_on_surface ? shift * BESIDE : vec3(0.0);
     vec3 low = corner_position(base) + beside, along = vec3(step_along);
 
-    // Newton's method along the edge within a bracket that closes from both sides, and bisection where it would leave it.
+    // Newton's method along the edge within a bracket that closes from both sides, and bisection where it would leave
+    // it.
     float least = 0.0, most = 1.0;
     float s = clamp((iso - f0) / (f1 - f0), 0.0, 1.0);
     vec3 n = inside_low ? along : -along;

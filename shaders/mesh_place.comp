@@ -23,8 +23,8 @@ layout(std430, binding = BINDING_MESH_PLACE_PLACED) readonly buffer Placed { uin
 const float CREASE_SPREAD = 0.04;
 // Of the meeting point: tangent planes at the crossings tell nothing of a curved side's turn in between.
 const float DAMPING = 2e-3;
-// What a cell's distance across the crease counts beside the cosine between a crossing's normal and another: of those of
-// one side the furthest is taken, since the way to one beside the crease leads along it and onto its other side.
+// What a cell's distance across the crease counts beside the cosine between a crossing's normal and another: of those
+// of one side the furthest is taken, since the way to one beside the crease leads along it and onto its other side.
 const float ACROSS = 0.1;
 
 void main() {
@@ -69,8 +69,8 @@ void main() {
     float spread = 1.0 - dot(facing, times(planes, facing)) / (count * max(dot(facing, facing), 1e-12));
     bool on_crease = MAY_HAVE_CREASES && spread > CREASE_SPREAD && !on_cap && !is_crowded;
     if (on_crease) {
-      // The crossing that faces furthest from the mean, that which faces furthest from it, and that which faces furthest
-      // from the plane of the two.
+      // The crossing that faces furthest from the mean, that which faces furthest from it, and that which faces
+      // furthest from the plane of the two.
       vec3 ahead = facing * inversesqrt(max(dot(facing, facing), 1e-12));
       vec3 axis = -ahead, second = vec3(0.0);
       uint chosen = 0u;

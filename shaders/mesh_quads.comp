@@ -32,9 +32,9 @@ vec3 place(uint v, vec3 edge, uint axis) {
 
 float turn(vec3 a, vec3 b) { return a.x * b.y - a.y * b.x; }
 
-// What cutting the quad a, b, c, d along a c costs: the distance between its triangles and the crossing on the edge, and
-// their bend. Seen along the edge the vertices lie around it counter-clockwise, and their triangles and the envelope are
-// linear between the edge, the vertices, and the diagonal's crossing of the ray from the edge to b or d.
+// What cutting the quad a, b, c, d along a c costs: the distance between its triangles and the crossing on the edge,
+// and their bend. Seen along the edge the vertices lie around it counter-clockwise, and their triangles and the
+// envelope are linear between the edge, the vertices, and the diagonal's crossing of the ray from the edge to b or d.
 float cost(vec3 a, vec3 b, vec3 c, vec3 d, float crossing, bool knows_crossing) {
   vec3 n0 = cross(b - a, c - a), n1 = cross(c - a, d - a);
   float flatness = dot(n0, n1) * inversesqrt(max(dot(n0, n0) * dot(n1, n1), 1e-36));

@@ -30,8 +30,8 @@ void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  // Subgroups go on whole, and surplus invocations repeat the last vertex. gl_SubgroupSize would not do for a stride, since
-  // a driver may run fewer invocations together than it says.
+  // Subgroups go on whole, and surplus invocations repeat the last vertex. gl_SubgroupSize would not do for a stride,
+  // since a driver may run fewer invocations together than it says.
   for (uint own = starts[b].x + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
     uint v = min(own, end - 1u);
     uint vertex = vertex_list[v];

@@ -17,8 +17,9 @@ const uint STEERING_NONE = 0u, STEERING_THETA = 1u, STEERING_ALPHA = 2u;
 layout(push_constant) uniform Constants {
   uint count;
   uint operands;
-  // A row of arguments holds the fields; then tan(theta) or alpha, or, for an operator that follows an angle, the angle's
-  // cosine and sine and the ratio of the gradients' lengths. The host has those functions to the last bit, Vulkan to 2^-11.
+  // A row of arguments holds the fields; then tan(theta) or alpha, or, for an operator that follows an angle, the
+  // angle's cosine and sine and the ratio of the gradients' lengths. The host has those functions to the last bit,
+  // Vulkan to 2^-11.
   uint columns;
   uint steering;
   uint code;      // as of an instruction
@@ -34,8 +35,8 @@ Field operand(float f, uint slot) {
   return a;
 }
 
-// The blend at `by` = tan(theta), or through the opening at alpha; slot 2 of the direction is the derivative by theta or
-// alpha.
+// The blend at `by` = tan(theta), or through the opening at alpha; slot 2 of the direction is the derivative by theta
+// or alpha.
 Field steered(Field a, Field b, uint op, float by) {
   vec4 operation = operation_at(record);
   vec2 t = vec2(by, 1.0 + by * by);

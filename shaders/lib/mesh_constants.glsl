@@ -1,7 +1,8 @@
 // The numbering that the mesher's passes share, and what follows from what they are told.
 //
 // A cell's corners are numbered x + 2 y + 4 z, its edges 4 axis + u + 2 v with (u, v) the offsets along the next two
-// axes in cyclic order. Its surface falls into patches, one vertex each (dual marching cubes): server/engine/mesh/surface_cases.h.
+// axes in cyclic order. Its surface falls into patches, one vertex each (dual marching cubes):
+// server/engine/mesh/surface_cases.h.
 #ifndef MESH_CONSTANTS_GLSL
 #define MESH_CONSTANTS_GLSL
 
@@ -45,13 +46,14 @@ uint corner_number(uvec3 offset) { return offset.x + 2u * offset.y + 4u * offset
 // Place of a corner's sample within its brick.
 uint sample_place(uvec3 corner) { return corner.x + BRICK_CORNERS * (corner.y + BRICK_CORNERS * corner.z); }
 
-// A cell as the connecting pass leaves it: bits 0-7 the inside corners, bit 8 whether its ambiguous face is resolved the
-// other way, bits 16-23 the number of its first vertex in the brick, bits 24-31 that of its first quad.
+// A cell as the connecting pass leaves it: bits 0-7 the inside corners, bit 8 whether its ambiguous face is resolved
+// the other way, bits 16-23 the number of its first vertex in the brick, bits 24-31 that of its first quad.
 uint cell_case(uint cell) { return cell & 0x1ffu; }
 uint cell_vertex(uint cell) { return cell >> 16u & 0xffu; }
 uint cell_quad(uint cell) { return cell >> 24u; }
 
-// Which of the edges at the low corner of a cell with these inside corners the surface crosses, a bit an axis: a quad each.
+// Which of the edges at the low corner of a cell with these inside corners the surface crosses, a bit an axis: a quad
+// each.
 uint own_crossings(uint inside) {
   uint low = inside & 1u;
   return (low ^ (inside >> 1u & 1u)) | (low ^ (inside >> 2u & 1u)) << 1u | (low ^ (inside >> 4u & 1u)) << 2u;

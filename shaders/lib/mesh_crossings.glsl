@@ -53,10 +53,10 @@ void add_plane(inout Planes s, vec3 n, float distance) {
 }
 vec3 times(Planes s, vec3 v) { return s.xx_yy_zz * v + s.yz_zx_xy.zxy * v.yzx + s.yz_zx_xy.yzx * v.zxy; }
 
-// From the point to where the planes meet as well as can be within the cell, the point being at `x` in it, in cells. Where
-// they meet outside the cell it slides along the crease to the cell's face: what leaves the cell is held there, and the
-// rest follows. The damping, a part of the planes' number, keeps the point where it is along what they leave open, or
-// almost open: what a truncated pseudo-inverse does, but continuous, and without an eigen decomposition.
+// From the point to where the planes meet as well as can be within the cell, the point being at `x` in it, in cells.
+// Where they meet outside the cell it slides along the crease to the cell's face: what leaves the cell is held there,
+// and the rest follows. The damping, a part of the planes' number, keeps the point where it is along what they leave
+// open, or almost open: what a truncated pseudo-inverse does, but continuous, and without an eigen decomposition.
 vec3 meeting_point(Planes s, vec3 x, float damping) {
   vec3 least = vec3(MARGIN) - x, most = vec3(1.0 - MARGIN) - x;
   float scale = dot(s.xx_yy_zz, vec3(1.0));

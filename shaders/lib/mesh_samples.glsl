@@ -4,8 +4,8 @@
 
 #include "mesh_constants.glsl"
 
-// Octets 0 to 7: the corners at which the brick begins. 8 to 13: two for each upper face, without its upper edges. 14: the
-// edges at the upper x and y, and x and z. 15: that at the upper y and z, and the last corner, four times.
+// Octets 0 to 7: the corners at which the brick begins. 8 to 13: two for each upper face, without its upper edges. 14:
+// the edges at the upper x and y, and x and z. 15: that at the upper y and z, and the last corner, four times.
 uvec3 corner_of_octet(uint octet, uint n) {
   uint m = (octet & 1u) * OCTET_CORNERS + n, u = m % BRICK_CELLS, v = m / BRICK_CELLS;
   uint k = n % BRICK_CELLS;

@@ -27,8 +27,8 @@ vec2 logarithm(float x) {
   return vec2(high, low);
 }
 
-// (x (1 + tail))^t, x > 0; `tail` is what x lacks of the base, where float32 has no room for it. Exactly 1 for t = 0 and
-// for x = 1; 0 below 2^-126, and not meant for results above 2^127.
+// (x (1 + tail))^t, x > 0; `tail` is what x lacks of the base, where float32 has no room for it. Exactly 1 for t = 0
+// and for x = 1; 0 below 2^-126, and not meant for results above 2^127.
 float power_of(float x, float tail, float t) {
   vec2 base = logarithm(x);
   base.y += 1.44269504 * tail;

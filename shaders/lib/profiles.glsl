@@ -57,8 +57,8 @@ vec3 silhouette_profile(uint table, vec3 grading, float u, float w) {
   return u > 0.0 ? q : vec3(1.0, 0.0, 0.0);
 }
 
-// The table of the half that the greater field says, of a silhouette as a scene's record names it: bit 30 marks one whose
-// halves differ.
+// The table of the half that the greater field says, of a silhouette as a scene's record names it: bit 30 marks one
+// whose halves differ.
 uint silhouette_half(uint silhouette, float f1, float f2) {
   uint second = (silhouette >> 30u & 1u) != 0u && f1 < f2 ? uint(SILHOUETTE_CELLS + 1) : 0u;
   return (silhouette & 0x3fffffffu) + second;
@@ -75,8 +75,8 @@ float beyond_sample(vec4 head, float number, float alpha) {
 }
 
 // tan(theta) of an opening function and its derivative, at alpha within [0, pi], from opening_table() of
-// server/operators/profile_table.h. The leading digits of a place are its cell's number. Where a cell starts is exact, so
-// that what lies beyond it keeps all of its digits.
+// server/operators/profile_table.h. The leading digits of a place are its cell's number. Where a cell starts is exact,
+// so that what lies beyond it keeps all of its digits.
 vec2 opening_tangent(uint table, float alpha) {
   vec4 head = tables[table];
   float from = alpha - head.x;

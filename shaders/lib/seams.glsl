@@ -1,6 +1,6 @@
-// The normals of meshes beside seams: curves along which a sharp union, or a blend narrower than a cell, makes the surface
-// turn by less than pictures show as a crease. It is an accident of the lattice on which side of such a seam a vertex
-// lies, so the gradient of that side alone would shade the seam as a ragged line.
+// The normals of meshes beside seams: curves along which a sharp union, or a blend narrower than a cell, makes the
+// surface turn by less than pictures show as a crease. It is an accident of the lattice on which side of such a seam a
+// vertex lies, so the gradient of that side alone would shade the seam as a ragged line.
 //
 // Kernels that take a mesh's normals include this, and define CELL_SIZE.
 #ifndef SEAMS_GLSL
@@ -8,22 +8,23 @@
 
 #include "field.glsl"
 
-// Normals turn within this distance of a seam, in cells: triangles reach as far, and normals are linear over these. It is
-// shorter where no steering direction's Jacobian tells how the sides bend, so that surfaces that touch keep their normals;
-// surfaces that may crease have their vertices on the seam.
+// Normals turn within this distance of a seam, in cells: triangles reach as far, and normals are linear over these. It
+// is shorter where no steering direction's Jacobian tells how the sides bend, so that surfaces that touch keep their
+// normals; surfaces that may crease have their vertices on the seam.
 #define SEAM_REACH (is_steered() ? 1.0 : 0.25)
 // The turns up to which sides are shaded as one surface, as squares of chords: of sharp unions 25 degrees, from where
-// client/cli/mesh_files cuts creases open; of blends that are narrow for the cells alone 40, from where camel's are wide.
+// client/cli/mesh_files cuts creases open; of blends that are narrow for the cells alone 40, from where camel's are
+// wide.
 const float SHARP_SEAM = 0.18738443, NARROW_SEAM = 0.46791111;
 // The tangent from which an opening makes a sharp union: kSharp of server/operators/steered.cpp.
 const float SHARP_OPENING = 0.9656888;
 
-// Makes the gradient of r, an operator's result, turn evenly from that of a to that of b where they meet at a turn below
-// `most`; `turned` is the part that it has turned already. Half of the turn is made on the seam, and none is left from its
-// reach on; where the operator itself turns less sharply its gradient stays.
+// Makes the gradient of r, an operator's result, turn evenly from that of a to that of b where they meet at a turn
+// below `most`; `turned` is the part that it has turned already. Half of the turn is made on the seam, and none is left
+// from its reach on; where the operator itself turns less sharply its gradient stays.
 //
-// Sides meet where their fields are equal. On the way from there along one side the other recedes by y, its slope y' being
-// the sine of the angle between them, and y'' the curvature by which they bend apart. So the turn at the seam is
+// Sides meet where their fields are equal. On the way from there along one side the other recedes by y, its slope y'
+// being the sine of the angle between them, and y'' the curvature by which they bend apart. So the turn at the seam is
 // sqrt(y'^2 - 2 y'' y), 0 where they touch, and the distance from it 2 y over the sum of both slopes.
 void even_seam(inout Field r, Field a, Field b, float turned, float most) {
 #ifdef WITH_GRADIENT
@@ -45,8 +46,8 @@ void even_seam(inout Field r, Field a, Field b, float turned, float most) {
   float distance = 2.0 * y * inverse_slope / (1.0 + turn);
   float even = min(0.5 * turn, 0.5) * (1.0 - distance / SEAM_REACH);
   bool is_seam = even > min(turned, 1.0 - turned) && turn2 < most && min(n1, n2) > 1e-24;
-  // The gradient stays as steep as that of its side, and keeps what r has beside the two, as where an opening follows their
-  // angle.
+  // The gradient stays as steep as that of its side, and keeps what r has beside the two, as where an opening follows
+  // their angle.
   float rest = (is_second ? 1.0 - even : even) - turned;
   vec3 step = rest / (CELL_SIZE * (is_second ? inverse2 : inverse1)) * across;
   // Steering directions stay as they are: they decide the shape.

@@ -10,8 +10,8 @@
 const float MOST_RATIO = 8.0;
 
 // An operand's direction in the frame of the operator at `record`, with lengths and angles as they are before the
-// transforms above the operator: Affine::gradient_frame() of server/blobtree/geometry/affine.h. A record that has no frame before
-// it is that of an operator that follows no angle, and the result does not count.
+// transforms above the operator: Affine::gradient_frame() of server/blobtree/geometry/affine.h. A record that has no
+// frame before it is that of an operator that follows no angle, and the result does not count.
 Field in_frame(Field a, uint record) {
   if (has_frames()) {
     uint at = max(record, 2u) - 2u;
