@@ -10,6 +10,7 @@
 
 namespace isofield::gpu {
 
+// The properties of a device on which the choice depends.
 struct DeviceCandidate {
   enum class Type { kDiscrete, kIntegrated, kVirtual, kCpu, kOther };
 

@@ -15,7 +15,7 @@ struct Jet {
   Jet() = default;
   Jet(double value) : v(value) {}  // NOLINT: constants mix with jets as numbers do
 
-  // f(a, b) of a function with these partial derivatives at (a, b).
+  // Returns f(a, b) for a function that has the value f and these partial derivatives at (a, b).
   static Jet chain(const Jet& a, const Jet& b, double f, double fa, double fb, double faa, double fab, double fbb) {
     Jet r(f);
     for (int i = 0; i < 3; ++i) {

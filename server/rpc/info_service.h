@@ -27,7 +27,7 @@ class InfoService final : public v1::InfoService::Service {
         version_(std::move(version)),
         region_socket_(std::move(region_socket)) {}
 
-  // Only this call needs no admission, so that a full server still answers it.
+  // This call asks for no admission, so that a full server still answers it.
   grpc::Status GetInfo(grpc::ServerContext* context, const v1::GetInfoRequest*,
                        v1::GetInfoResponse* response) override {
     return finish(*context, base::guarded([&] { return get(*response); }));

@@ -24,7 +24,7 @@ absl::StatusOr<engine::MeshRequest> read_mesh_request(const v1::MeshRequest& req
                                                       const Limits& limits, const std::function<bool()>& cancelled);
 
 // Estimates how many cells the surface crosses, which admission takes as the size of the work: as many cells as cover
-// the faces of the lattice, limited by the part and by the number of cells that the request states.
+// the faces of the lattice, but at most those of request.part and at most request.max_cells.
 std::uint64_t estimated_cells(const blobtree::Tape& tape, const engine::MeshRequest& request);
 
 // Returns the simplification error in model units, or nothing if no simplification is asked for. INVALID_ARGUMENT: it
