@@ -53,6 +53,6 @@ bool vanishes(const Leaf& leaf, const Box& box);
 // Writes the leaf's record, which takes record_size(leaf.operand) vec4s.
 void write_leaf(const Leaf& leaf, Float4* out);
 
-inline constexpr double kMaxCondition = 1e6;  // the most that a transform's linear part may have
+inline constexpr double kMaxCondition = 1e6;  // largest condition number of a transform's linear part
 
 }  // namespace isofield::blobtree
