@@ -138,7 +138,7 @@ TEST(PaperRanges, OutsideTheBlendALevelIsTheLeastField) {
         const double scale = std::max(1.0, std::abs(l.value));
         if (l.is_blend) {
           ++inside;
-          // Where the blend begins, it is below the least field by less than float32's rounding.
+          // At its beginning the blend is below the least field by less than float32's rounding.
           const double exact_g =
               exact(op, {&x[i * family.operands], &x[i * family.operands] + family.operands}).field.v;
           EXPECT_LE(exact_g, l.value + 1e-14 * scale) << family.name;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Reads the #include lines of server/ and fails where the rooms of the house are not kept apart.
+"""Reads the #include lines of server/ and fails if a room of the house includes a file that it may not include.
 
 Usage: arrows_test.py SERVER_FOLDER
 """
@@ -58,7 +58,7 @@ INCLUDE = re.compile(r'\s*#\s*include\s+["<]([^">]+)[">]')
 
 
 def room_of(path):
-    """The room of a file, whose path begins in server/; None for what comes from elsewhere."""
+    """Returns the room of a file, whose path begins in server/, or None for what comes from elsewhere."""
     parts = path.split("/")
     if len(parts) == 1:
         return "main" if path == "main.cpp" else None
@@ -70,7 +70,7 @@ def room_of(path):
 
 
 def read_files(server):
-    """Path -> lines, of all sources."""
+    """Returns the lines of all sources by their paths."""
     files = {}
     for folder, _, names in os.walk(server):
         for name in names:
@@ -99,7 +99,7 @@ def arrow_faults(path, included):
 
 
 def find_circle(graph):
-    """A list of nodes that leads back to its first one; empty: there is none."""
+    """Returns a list of nodes that leads back to its first one, or an empty list."""
     done = set()
 
     def follow(node, way):
@@ -142,7 +142,7 @@ def faults(server):
 
 
 class Arrows(unittest.TestCase):
-    """The rules, in small houses."""
+    """Tests the rules on small trees of files."""
 
     def faults_of(self, files):
         with tempfile.TemporaryDirectory() as folder:
