@@ -44,7 +44,7 @@ Field apply_to_many(Field x[MAX_OPERANDS], uint op, uint mask, uint mode, uint r
   if (may_follow_angle()) angle = angle_between(in_frame(x[0], record), in_frame(x[1], record));
   Field r = unite_many(x, op, mask, record, angle);
 #ifdef CELL_SIZE
-  // An operator of two operands whose ranges follow an angle is sharp where the operands are aligned.
+  // Ranges that follow an angle almost vanish where the two operands are aligned, which leaves a seam there.
   if (may_follow_angle() && operation_at(record).y >= 0.0) {
     even_seam(r, x[0], x[1], part_turned(r, x[0], x[1]), SHARP_SEAM);
   }
