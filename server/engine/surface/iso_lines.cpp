@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
-// Edges are numbered 2 sample + axis, by their lower sample.
+// Traces the lines. An edge between two samples has the number 2 s + axis, with s the number of its lower sample.
 class Tracer {
  public:
   Tracer(std::span<const float> values, std::array<std::uint32_t, 2> counts, float level)
@@ -26,10 +26,10 @@ class Tracer {
   }
 
  private:
-  // The curve's pieces within a square.
+  // Notes the pieces of the curve within a square.
   void link(std::uint32_t i, std::uint32_t j) {
     const std::uint32_t low = j * counts_[0] + i, up = low + counts_[0];
-    // Counter-clockwise; edge k leads from corner k to the next.
+    // Corners and edges go counter-clockwise; edge k leads from corner k to the next.
     const std::array<std::uint32_t, 4> corners{low, low + 1, up + 1, up};
     const std::array<std::uint32_t, 4> edges{2 * low, 2 * (low + 1) + 1, 2 * up, 2 * low + 1};
     const auto above = [&](std::uint32_t k) { return values_[corners[k % 4]] > level_; };
@@ -76,7 +76,7 @@ class Tracer {
   const std::span<const float> values_;
   const std::array<std::uint32_t, 2> counts_;
   const float level_;
-  std::vector<std::uint32_t> next_;  // of the edges that the curve crosses; taken away as it is followed
+  std::vector<std::uint32_t> next_;  // the next edge that the curve crosses after each; removed as it is followed
   std::vector<bool> has_before_;
   Polylines lines_;
 };
