@@ -1,5 +1,6 @@
-// Bt2 is the conic blend of two signed fields with individual ranges, [H] eq. 4. It is the root h of H(x_1 - m_1 h, x_2
-// - m_2 h) = 0, so that the zero set does not depend on the weights m_i.
+// Bt2 is the conic blend of two signed fields with individual ranges, [H] eq. 4. It is the root h of
+//   H(x_1 - m_1 h, x_2 - m_2 h) = 0,
+// so that the zero set does not depend on the weights m_i.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ struct Bt2 {
   static Bt2 read(const v1::Bt2& message, base::FieldReader& in);
 
   std::array<Term, 2> terms;
-  double conic = 0;  // p
+  double conic = 0;  // p of [H] eq. 4
   BulgeElimination elimination;
 
   OperandCount operand_count() const { return {2, 2}; }

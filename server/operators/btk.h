@@ -1,5 +1,5 @@
-// Btk is the super-elliptic blend of signed fields with individual ranges, [H] eq. 5. It is the root h of sum_i [(r_i -
-// x_i + m_i h) / r_i]_+^p_i = 1.
+// Btk is the super-elliptic blend of signed fields with individual ranges, [H] eq. 5. It is the root h of
+//   sum_i [(r_i - x_i + m_i h) / r_i]_+^p_i = 1.
 #pragma once
 
 #include <cmath>
@@ -57,9 +57,9 @@ struct Btk {
   // Returns the most that an operand's weight becomes, whatever the gradients.
   double most_weight_of(std::size_t operand) const;
 
-  // Finds the root h. The sum is convex and increasing in h and at least 1 at min x_i / m_i, so Newton's method from
-  // there falls to the root and never beyond it: no bracket is needed (the paper uses Regula Falsi). `powers` are p_i >
-  // 1.
+  // Finds the root h; the powers p_i must be above 1. The sum is convex and increasing in h and at least 1 at min x_i /
+  // m_i, so Newton's method from there falls to the root and never beyond it: no bracket is needed (the paper uses
+  // Regula Falsi).
   template <class T>
   static Joint<T> root(const std::vector<T>& x, const std::vector<Reach<T>>& reach, const std::vector<double>& powers);
 };

@@ -53,8 +53,8 @@ T angular_range(double range, const T& cosine, double omega) {
   return (T(1 + omega) - cosine) * T(range);
 }
 
-// Makes the ranges and weights follow an angle. angle.ratio is 1 for distances; it is kept within [1 / kMostRatio,
-// kMostRatio].
+// Makes the ranges and weights follow an angle. The caller keeps angle.ratio within [1 / kMostRatio, kMostRatio]; it is
+// 1 for distances.
 template <class T>
 void eliminate_bulge(Reach<T>& reach1, Reach<T>& reach2, const Angle<T>& angle, double omega) {
   reach1.range = angular_range(value_of(reach1.range), angle.cosine, omega);

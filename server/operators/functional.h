@@ -24,7 +24,7 @@ struct Functional {
   static constexpr Traits kTraits{"functional", Fields::kSigned, Arity::kFolded, true};
   static Functional read(const v1::FunctionalBlend& message, base::FieldReader& in);
 
-  SampledCurve h;  // H, from x >= 0 on
+  SampledCurve h;  // H(x) for x >= 0
 
   OperandCount operand_count() const { return {1, kAnyNumber}; }
   bool is_ordered() const { return false; }

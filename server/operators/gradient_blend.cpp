@@ -21,8 +21,8 @@ Curve clamped_profile(const Silhouette& s, Silhouette::Half half, double a, doub
 Boundary boundary(double f, double t) {
   if (f >= 0.5) return {t / 2, 0, 0, 0.5, 0};
   // k = (8 t / (1 + t)^2) lambda^2
-  Curve lambda{f, 1, 0};               // in f
-  double lambda_t = 0, lambda_ft = 0;  // in t
+  Curve lambda{f, 1, 0};               // derivatives by f
+  double lambda_t = 0, lambda_ft = 0;  // derivatives by t
   if (f > t / 2) {
     const double x = 2 * (2 * f - t) / (1 - t);
     const double x_t = 2 * (2 * f - 1) / ((1 - t) * (1 - t));

@@ -24,8 +24,8 @@ struct Blend {
   double g11 = 0, g12 = 0, g22 = 0, g1t = 0, g2t = 0;
 };
 
-// Returns g for f1, f2 >= 0 (values above 1 are legal) and theta within [0, pi/4]. These identities hold exactly: g(f,
-// 0) = f, g(0, f) = f, g(0, 0) = 0.
+// Returns g for f1, f2 >= 0 (values above 1 are legal) and theta within [0, pi/4]. The identities g(f, 0) = f, g(0, f)
+// = f and g(0, 0) = 0 hold exactly.
 Blend gradient_blend(double f1, double f2, double theta, const Silhouette& silhouette);
 
 }  // namespace isofield::operators

@@ -1,6 +1,7 @@
 // The concept OperatorKind and those after it list what every kind of operator provides. operator.h has the table of
 // all kinds; server/README.md tells how to add one. Every function speaks of the union unless it says otherwise, since
-// an intersection and a difference are unions of complements.
+// an intersection and a difference are unions of complements. In this folder [G] is Gourmel et al. 2013, and [H] is Hsu
+// 2006.
 #pragma once
 
 #include <concepts>
@@ -115,8 +116,9 @@ concept FoldedKind = requires(const K& kind, const Interval& a, const Interval& 
   kind.unite(f1, f2).g1;
   { kind.bound(a, b) } -> std::same_as<Interval>;
 };
-// blend() is the operator at a given angle theta of the opening. growth() is the least c with blend <= max(f1, f2) + c
-// min(f1, f2), unless the kind says otherwise (sampled.h); bound() takes it.
+// blend() is the operator at a given angle theta of the opening. growth() returns the least c with
+//   blend <= max(f1, f2) + c min(f1, f2)
+// unless the kind says otherwise (sampled.h), and bound() takes this c.
 template <class K, class SilhouetteBounds>
 concept SteeredKind = requires(const K& kind, SilhouetteBounds& silhouettes, const Interval& a, double x) {
   kind.opening.theta(x);

@@ -180,7 +180,7 @@ class Operator {
   // Returns whether the angle between its operands' gradients changes the result.
   bool follows_angle() const { return is_steered() || has_angular_ranges(); }
   OperandCount operand_count() const;
-  // Returns whether it makes a difference which of two operands is the first.
+  // Returns whether the result depends on which of two operands is the first.
   bool is_ordered() const;
   bool may_crease() const;
   Opcode opcode(Law law) const;

@@ -1,5 +1,5 @@
-// Superelliptic is the super-elliptic blend of signed fields, [G] eq. 4: 1 - sum_i [1 - x_i / r_i]_+^t, with [x]_+ =
-// max(0, x).
+// Superelliptic is the super-elliptic blend of signed fields, [G] eq. 4:
+//   1 - sum_i [1 - x_i / r_i]_+^t, with [x]_+ = max(0, x).
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ struct Superelliptic {
   static constexpr Traits kTraits{"superelliptic", Fields::kSigned, Arity::kJoint, true};
   static Superelliptic read(const v1::SuperellipticBlend& message, base::FieldReader& in);
 
-  double exponent = 1;           // t
+  double exponent = 1;           // t of [G] eq. 4
   std::vector<Term> terms;       // only their ranges count: one for each operand, or one for all
   BulgeElimination elimination;  // Rockwood's ranges, r (1 - cos alpha) + omega r
 

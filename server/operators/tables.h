@@ -1,5 +1,5 @@
 // Tables collects the tables of silhouettes, openings and curves that a tape's operators read on the device. Operators
-// with equal ones share a table.
+// with the same silhouette, opening or curve share its table.
 #pragma once
 
 #include <cstdint>

@@ -34,8 +34,8 @@ Interpolated interpolate(std::array<double, 3> at, int size, const VolumeNodes& 
     corners[c] = {n.g, n.g1, n.g2, n.gt};
   }
   if (cell[0] == cell[1]) {
-    // A cell on the diagonal, where max and folds break, is two prisms. The corner on the other side is replaced by the
-    // one that makes the interpolation linear on this side.
+    // A cell on the diagonal, where max and folds have an edge, is two prisms. The corner on the other side is replaced
+    // by the one that makes the interpolation linear on this side.
     for (const int c : {0, 4}) {
       const int other = s[0] >= s[1] ? 2 : 1;
       for (int i = 0; i < 4; ++i) corners[c + other][i] = corners[c][i] + corners[c + 3][i] - corners[c + 3 - other][i];

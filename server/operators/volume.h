@@ -1,7 +1,7 @@
 // volume_blend() evaluates the `volume` representation of an operator, [G] section 4.3, in double precision: values and
 // partials at n^3 nodes over f1 and f2 within [0, 1] and theta within [0, pi/4], interpolated trilinearly. A cell on
-// the diagonal f1 = f2, where max and folds break, is two prisms, linear on either side, because the largest error is
-// then far less.
+// the diagonal f1 = f2, where max and folds have an edge, is two prisms, linear on either side, because the largest
+// error is then far less.
 #pragma once
 
 #include <functional>

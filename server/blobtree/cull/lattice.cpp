@@ -20,6 +20,7 @@ bool has_same_code(const Instruction& a, const Instruction& b) {
 constexpr std::uint32_t kSharedLevels = 3;
 constexpr std::size_t kSharesAtOnce = 4;
 
+// Culler does the work of one cull(), or that of some of its shares on another thread.
 class Culler {
  public:
   Culler(const Tape& tape, const CullRequest& request) : tape_(tape), request_(request), pruner_(tape) {

@@ -35,8 +35,9 @@ struct Lattice {
 inline constexpr std::uint32_t kBrickCells = 4;
 inline constexpr std::uint32_t kCellsPerBrick = kBrickCells * kBrickCells * kBrickCells;
 
+// A Brick has its place in the lattice, and its tape as a range of BrickList::code.
 struct Brick {
-  std::uint32_t x, y, z;  // place in the lattice, in bricks
+  std::uint32_t x, y, z;  // in bricks
   std::uint32_t tape_begin, tape_count;
 };
 
@@ -45,11 +46,13 @@ struct BrickList {
   std::vector<Instruction> code;
 };
 
+// Keep says which bricks cull() returns.
 enum class Keep {
   kSurface,  // bricks that the surface f = iso may cross
   kSupport,  // bricks where the field may differ from 0
 };
 
+// CullRequest says what cull() does.
 struct CullRequest {
   Lattice lattice;
   // If there is a set, only its bricks are kept.

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kShortTape = kUnsortedInstructions / 2;
 constexpr std::uint32_t kSmallGroup = 48;
 
+// Binner does the work of one bin_points().
 class Binner {
  public:
   Binner(const Tape& tape, std::span<const float> xyz) : xyz_(xyz), pruner_(tape), tape_(tape) {}

@@ -19,11 +19,13 @@ struct PlacedPoint {
   std::uint32_t place;
 };
 
+// A PointGroup is a group of points that share a pruned tape.
 struct PointGroup {
   std::uint32_t first, count;            // range in PointBins::points
   std::uint32_t tape_begin, tape_count;  // range in PointBins::code; if it is empty, the field is 0
 };
 
+// PointBins is the result of bin_points().
 struct PointBins {
   std::unique_ptr<PlacedPoint[]> points;  // null if the batch stays as it is, in one group
   std::vector<PointGroup> groups;         // hold every point once

@@ -11,9 +11,10 @@
 
 namespace isofield::blobtree {
 
+// A ParameterEdit gives new values to a field of a node, or to an element of a field.
 struct ParameterEdit {
   std::string node;   // a node's name, or "#i" for nodes[i]
-  std::string field;  // "radius", "radius_a" or "radiusA", "center", "center.y", "center.1", "opening.alpha0"
+  std::string field;  // like "radius", "radius_a" or "radiusA", "center", "center.y", "center.1", "opening.alpha0"
   std::vector<double> values;
 };
 

@@ -15,6 +15,7 @@ namespace isofield::blobtree {
 
 enum class NodeKind { kPrimitive, kOperator, kTransform, kSoften, kHarden };
 
+// A Node is a node of the scene. Which of its last members are used depends on its kind.
 struct Node {
   NodeKind kind = NodeKind::kPrimitive;
   operators::Law law = operators::Law::kPositive;  // law of the field that the node yields

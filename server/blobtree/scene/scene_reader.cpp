@@ -71,6 +71,7 @@ class References {
   absl::flat_hash_map<std::string, std::uint32_t> names_;
 };
 
+// A Mark tells whether a node has not been visited, is on the way from `start`, or is done.
 enum class Mark : char { kNew, kOpen, kDone };
 
 // Appends `start` and all nodes below it to `order`, children first, except those that it already has. It refuses

@@ -39,6 +39,7 @@ double gain_of(const operators::Operator& op, std::size_t operands) {
   return gain;
 }
 
+// Compiler makes one tape. It walks the scene with a stack of its own.
 class Compiler {
  public:
   explicit Compiler(const Scene& scene) : scene_(scene) {}
@@ -57,6 +58,7 @@ class Compiler {
   }
 
  private:
+  // A Join says which operator takes a value, and how.
   struct Join {
     Opcode op = Opcode::kPush;
     std::uint32_t operation = 0;  // index in Tape::operations

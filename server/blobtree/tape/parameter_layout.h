@@ -8,6 +8,7 @@
 
 namespace isofield::blobtree {
 
+// ParameterBuffers are the buffers of one tape.
 struct ParameterBuffers {
   std::vector<Float4> leaves;      // records of record_size(operand) vec4s
   std::vector<Float4> operations;  // records of operation_record_size vec4s
