@@ -21,10 +21,10 @@ layout(std140, binding = BINDING_SCENE_UNIFORM_OPERATIONS) uniform UniformOperat
 };
 layout(std140, binding = BINDING_SCENE_UNIFORM_TAPE) uniform UniformTape { uvec4 uniform_tape[WINDOW_SIZE]; };
 
-// On lavapipe a load from a storage buffer inside of a loop is a loop over the lanes, and one from a uniform buffer
-// some 100 instructions a vec4, also where all lanes ask for the same. So with subgroups of 8 each lane loads one word
-// of two vec4s, and takes the others' by shuffles of one instruction: sums are sampled in 0.6 of the time. All
-// invocations of a subgroup must be active.
+// True if the invocations of a subgroup share their loads. On lavapipe a load from a storage buffer inside a loop is
+// itself a loop over the lanes, and a load from a uniform buffer takes some 100 instructions a vec4, even if all lanes
+// load the same. So with subgroups of 8 each lane loads one word of two vec4s, and gets the other words by shuffles,
+// which take one instruction each. All invocations of the subgroup must be active then.
 #define shares_loads() ((UNIFORM_SET & LOADS_ARE_SHARED) != 0u)
 
 // Two consecutive vec4s of a record.

@@ -59,8 +59,8 @@ vec3 silhouette_profile(uint table, vec3 grading, float u, float w) {
   return u > 0.0 ? q : vec3(1.0, 0.0, 0.0);
 }
 
-// The table of the half that the greater field says, of a silhouette as a scene's record names it: bit 30 marks one
-// whose halves differ.
+// Returns the table for the half of a silhouette on the side of the greater field. `silhouette` is the number in a
+// scene's record, whose bit 30 marks a silhouette with two different halves.
 uint silhouette_half(uint silhouette, float f1, float f2) {
   uint second = (silhouette >> 30u & 1u) != 0u && f1 < f2 ? uint(SILHOUETTE_CELLS + 1) : 0u;
   return (silhouette & 0x3fffffffu) + second;
@@ -76,9 +76,9 @@ float beyond_sample(vec4 head, float number, float alpha) {
   return beyond * head.z;
 }
 
-// tan(theta) of an opening function and its derivative, at alpha within [0, pi], from opening_table() of
-// server/operators/profile_table.h. The leading digits of a place are its cell's number. Where a cell starts is exact,
-// so that what lies beyond it keeps all of its digits.
+// Returns tan(theta) of an opening function and its derivative by alpha, for alpha within [0, pi], from opening_table()
+// of server/operators/profile_table.h. The leading bits of a place are the number of its cell. The start of a cell is
+// an exact float, so that the distance from it keeps all of its digits.
 vec2 opening_tangent(uint table, float alpha) {
   vec4 head = tables[table];
   float from = alpha - head.x;
