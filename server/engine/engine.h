@@ -1,5 +1,5 @@
-// The facade of this folder: an Engine owns a GPU device and everything that runs on it, and the rooms above
-// (scenes/, rpc/) reach the device through it alone.
+// The facade of this folder: an Engine owns a GPU device and everything that runs on it. The rooms above (scenes/,
+// rpc/) do their work on the device through it.
 #pragma once
 
 #include <absl/status/statusor.h>

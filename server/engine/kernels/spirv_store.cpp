@@ -21,7 +21,7 @@ constexpr char kExtension[] = ".spv";
 struct Head {
   std::array<char, 8> magic{'i', 's', 'o', 'S', 'P', 'V', '0', '1'};
   std::uint64_t text_bytes = 0, spirv_bytes = 0;
-  std::uint64_t hash = 0;  // of the text and the SPIR-V
+  std::uint64_t hash = 0;  // covers the text and the SPIR-V
 };
 static_assert(sizeof(Head) == 32);
 

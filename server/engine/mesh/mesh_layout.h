@@ -2,9 +2,9 @@
 // shaders/generators/layouts.cpp writes them as GLSL.
 //
 // Words of this room, in the order from large to small:
-//   part    bricks of a mesh that are meshed by themselves, with those around them that their mesh depends on.
+//   part    bricks of a mesh that are meshed in one go, and the bricks around them that their mesh depends on.
 //   slab    consecutive bricks of a part, or quads, or points of a batch, whose work is one submission.
-//   job     an entry of the list that a dispatch works through: a brick and what of it, or points of one tape.
+//   job     an entry of the list that a dispatch works through: a brick or an octet of it, or points of one tape.
 //   octet   up to eight corners of a brick, which eight invocations sample.
 // A piece (engine/simplify/) is what one thread simplifies of a mesh.
 #pragma once
@@ -32,7 +32,7 @@ struct MeshConstants {
   float just_inside;  // the number just above iso
 };
 
-// MeshConstants::flags.
+// The bits of MeshConstants::flags.
 inline constexpr std::uint32_t kIsCapped = 1;  // corners on the lattice's boundary count as outside
 inline constexpr std::uint32_t kIsSigned = 2;  // the field is less inside
 inline constexpr std::uint32_t kIsListed = 4;  // the dispatch is about listed bricks, not about those from `first` on

@@ -28,7 +28,7 @@ struct PartSets {
 };
 
 struct PartBricks {
-  blobtree::Lattice lattice;  // of the whole mesh
+  blobtree::Lattice lattice;  // the lattice of the whole mesh
   // The part's own bricks in order of place; then the bricks that each larger set adds, set by set.
   blobtree::BrickList list;
   std::uint32_t owned = 0, placed = 0, crossed = 0;  // how many bricks, from the first on, are in each of these sets

@@ -8,8 +8,8 @@
 namespace isofield::engine {
 
 struct MeshRounding {
-  // The distance of the point beside; model units. It is a thousandth of a cell, or more if rounding moves points so
-  // far, and at most a tenth of a cell.
+  // The distance of the point beside; model units. It is a thousandth of a cell, or more if rounding errors are that
+  // large, and at most a tenth of a cell.
   double shift;
   double length;  // how far rounding of coordinates moves a point, model units
   double value;   // how far rounding of values changes the field

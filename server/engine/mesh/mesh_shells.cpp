@@ -131,7 +131,7 @@ class Nesting {
   }
 
   // Returns twice the area of the triangle a, b, p seen along x, positive if the three turn counter-clockwise. For b,
-  // a, p it returns exactly the negative, so that a ray near the edge of two triangles meets exactly one of them.
+  // a, p it returns exactly the negative, so that a ray never meets both of two triangles at the edge that they share.
   static double turn(const dvec3& a, const dvec3& b, const dvec3& p) {
     const bool is_ordered = a.y < b.y || (a.y == b.y && a.z < b.z);
     const dvec3 &u = is_ordered ? a : b, &v = is_ordered ? b : a;

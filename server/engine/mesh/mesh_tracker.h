@@ -28,7 +28,7 @@ class MeshTracker {
   MeshTracker(Mesher& mesher, const MeshRequest& request) : mesher_(mesher), request_(request) {}
 
   struct Update {
-    bool is_whole = false;                              // true: the client must drop all bricks that it knows
+    bool is_whole = false;                              // true: all bricks of earlier updates are void
     std::vector<std::array<std::uint32_t, 3>> removed;  // x, y and z of the bricks that are empty now
     std::vector<MeshCells> changed;                     // new bricks, and bricks that replace older ones
   };

@@ -19,7 +19,7 @@
 namespace isofield::engine {
 
 struct PartVertices {
-  gpu::Buffer positions;       // of the vertices of all bricks
+  gpu::Buffer positions;       // for the vertices of all bricks
   gpu::Buffer kinds;           // BrickKind bits of each brick, kHasCreases included
   std::vector<float> settled;  // the final positions in the `placed` bricks, 3 a vertex
   std::vector<float> normals;  // in the part's own bricks, 3 a vertex, if the request asks for normals

@@ -30,7 +30,7 @@ class PointIndex {
   // One tape for each brick of the grid.
   const std::vector<Tape>& tapes() const { return tapes_; }
   const TapeWindows& windows() const { return windows_; }
-  std::size_t instructions() const { return instructions_; }  // of all tapes
+  std::size_t instructions() const { return instructions_; }  // the sum over all tapes
 
  private:
   PointIndex(gpu::Device& device, const ResidentScene& scene, blobtree::PointGrid grid, blobtree::BrickList bricks);

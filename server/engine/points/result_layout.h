@@ -16,7 +16,7 @@ enum class Quantity : std::uint8_t { kValue, kGradient };
 struct QuantityTraits {
   Quantity quantity;
   std::size_t numbers;               // how many a point has
-  std::array<const char*, 3> names;  // of the numbers
+  std::array<const char*, 3> names;  // the names of these numbers
 };
 // The quantities in the order in which the numbers of a point lie.
 inline constexpr std::array kQuantities{QuantityTraits{Quantity::kValue, 1, {"value"}},

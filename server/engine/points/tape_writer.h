@@ -1,5 +1,5 @@
-// Writes a tape as GLSL, for a kernel that is made for this tape alone: straight-line code that names the places of the
-// tape's records, and reads their numbers from there.
+// Writes a tape as GLSL, for a kernel that is made for tapes of one structure: straight-line code that names the places
+// of the tape's records, and reads their numbers from there.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// WrittenKernels makes tier-two kernels: a scene that is asked often gets a kernel that is written for its tape alone,
-// made in the background. All other scenes are interpreted.
+// WrittenKernels makes tier-two kernels: in the background, a scene that is asked often gets a kernel that is written
+// for the structure of its tape. The interpreter serves all other scenes.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -51,8 +51,8 @@ class WrittenKernels {
   void wait();
 
   struct Counts {
-    std::uint64_t kernels = 0;    // made so far
-    std::uint64_t from_disk = 0;  // of these, those that were compiled by an earlier process
+    std::uint64_t kernels = 0;    // how many have been made so far
+    std::uint64_t from_disk = 0;  // how many of them an earlier process had compiled
     std::uint64_t failures = 0;
   };
   Counts counts() const;

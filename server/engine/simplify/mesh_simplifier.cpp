@@ -20,11 +20,9 @@ namespace {
 
 using blobtree::dvec3;
 
-// The length of a piece, in mean edges of the mesh. In pieces of this size meshoptimizer's float32 quadrics are exact
-// enough, and no piece takes long.
+// The length of a piece, in mean edges: meshoptimizer's float32 quadrics are exact enough there, and none takes long.
 constexpr double kPieceEdges = 24;
-// From pass to pass the pieces grow, since the triangles do, and shift, so that they lie across the borders of the
-// pieces before.
+// Pieces grow from pass to pass, since the triangles do, and shift, so that they lie across the borders before.
 constexpr int kPasses = 4;
 constexpr double kGrowth = 1.3, kShift = 0.37;
 // The error that meshoptimizer is allowed, as a part of the bound: at first, and how much more in each pass. Its error
@@ -35,8 +33,7 @@ constexpr double kLittle = 0.98;
 // A piece is tried kTries times, each time without the triangles that went wrong; then this is repeated up to kHalvings
 // times, each time with half of the error that was allowed before.
 constexpr int kTries = 4, kHalvings = 2;
-// A triangle is checked at the middles of smaller ones with edges of this length, in edges of the mesh; these middles
-// are about an edge apart.
+// A triangle is checked at the middles of smaller ones, with edges of this length in edges of the mesh: an edge apart.
 constexpr double kSampleEdges = 1.7;
 // The cosine of the angle by which a triangle may turn from the triangles that it replaces.
 constexpr double kFacing = 0.5;
@@ -224,9 +221,8 @@ class Simplifier {
     return out;
   }
 
-  // Returns the vertices at which the new triangles are flat, face away or lie too far off, or around which old
-  // vertices lie too far off. `moved` receives the vertices that are gone, each with the number of a new triangle near
-  // it.
+  // Returns the vertices at which new triangles are flat, face away or are too far off, or old vertices are too far
+  // off. `moved` receives the vertices that are gone, each with the number of a new triangle near it.
   std::vector<std::uint32_t> faults(const std::vector<std::uint32_t>& before, const std::vector<Triangle>& after,
                                     std::vector<std::pair<std::uint32_t, std::uint32_t>>& moved) {
     std::vector<std::uint32_t> found;
@@ -324,7 +320,7 @@ class Simplifier {
   const double max_error_;
   const MeshCallbacks& callbacks_;
   std::vector<Triangle> original_;    // the triangles of mesh_, by vertex numbers
-  std::optional<TriangleTree> tree_;  // of the original triangles
+  std::optional<TriangleTree> tree_;  // finds original triangles
   double spacing_ = 0;                // mean length of the original edges, model units
   std::vector<dvec3> facing_;         // the sum of the normals around each vertex
   CreaseWedges wedges_;

@@ -1,5 +1,5 @@
-// BracketedRoot finds a root between two points by the ITP method (Oliveira, Takahashi 2020). It never takes more than
-// one evaluation more than bisection, and is mostly as fast as the secant method.
+// BracketedRoot finds a root between two points by the ITP method (Oliveira, Takahashi 2020). It needs at most one
+// evaluation more than bisection, and is mostly as fast as the secant method.
 #pragma once
 
 #include <algorithm>

@@ -15,7 +15,7 @@ namespace isofield::engine {
 
 // The points origin + (i spacing[0]) u + (j spacing[1]) v, which are computed in double and rounded to float32.
 struct Plane {
-  blobtree::dvec3 origin, u, v;  // u, v: of unit length
+  blobtree::dvec3 origin, u, v;  // u and v have unit length
   std::array<double, 2> spacing{};
   std::array<std::uint32_t, 2> counts{};
 };

@@ -35,7 +35,7 @@ Depth depth_of(double f, const IsoLevel& level) {
   return {radius.value - radius_of(level.iso).value, radius.slope};
 }
 
-// A point on its way.
+// A point on its way to the surface.
 struct Walker {
   std::uint32_t number;
   dvec3 at, step;  // the point where the field is evaluated next, and the step that led there
@@ -77,7 +77,7 @@ class Projection {
     return xyz;
   }
 
-  // `fields`: value and gradient at points().
+  // Moves every walker by a step. `fields` has the value and the gradient at points().
   void advance(const ResultRows& fields) {
     std::size_t kept = 0;
     for (std::size_t n = 0; n < walkers_.size(); ++n) {
