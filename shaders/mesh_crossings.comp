@@ -38,8 +38,8 @@ void main() {
     float f0 = samples[slot * CORNERS_PER_BRICK + sample_place(cell)];
     float f1 = samples[slot * CORNERS_PER_BRICK + sample_place(cell + step_along)];
     uvec3 base = at.at * BRICK_CELLS + cell;
-    // If the inner end of the edge is on the surface, the edge may run along the surface. Then the crossing is looked for
-    // beside the edge, as the samples there are.
+    // If the inner end of the edge is on the surface, the edge may run along the surface. Then the crossing is looked
+    // for beside the edge, as the samples there are.
     float size = origin.w;
     bool begins_on_surface = is_on_surface(inside_low ? f0 : f1);
     vec3 beside = begins_on_surface ? shift * BESIDE : vec3(0.0);

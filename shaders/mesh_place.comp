@@ -20,7 +20,7 @@ layout(std430, binding = BINDING_MESH_PLACE_SAMPLES) readonly buffer Samples { f
 layout(std430, binding = BINDING_MESH_PLACE_PLACED) readonly buffer Placed { uint placed[]; };
 
 // A patch counts as holding a crease if the mean of the squared sines between its normals and their mean exceeds this.
-// So creases that turn by about 25 degrees or more are found, and so are surfaces with a radius of up to 2.5 cells.
+// This holds for creases that turn by about 25 degrees or more, and for surfaces with a radius of up to 2.5 cells.
 const float CREASE_SPREAD = 0.04;
 // The damping of the meeting point. It is needed because the tangent planes at the crossings do not show how a curved
 // side turns between them.

@@ -30,8 +30,9 @@ void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  // All invocations of a subgroup stay in the loop, and surplus ones repeat the last vertex, because the votes need
-  // them. The stride is not gl_SubgroupSize, since a driver may run fewer invocations together than that says.
+  // All invocations of a subgroup stay in the loop, and surplus ones repeat the last vertex, because shared loads
+  // (lib/parameters.glsl) need all of them active. The stride is not gl_SubgroupSize, since a driver may run fewer
+  // invocations together than that says.
   for (uint own = starts[b].x + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
     uint v = min(own, end - 1u);
     uint vertex = vertex_list[v];
@@ -49,8 +50,8 @@ void main() {
     vec3 inside = clamp(corner_position(base + (inside_low ? low_end : high_end)), least, most);
     vec3 outside = clamp(corner_position(base + (inside_low ? high_end : low_end)), least, most);
 
-    // If several patches share a cell, each vertex stays near the mean of its own crossings, away from the other vertices;
-    // if it can't reach the surface there, it is placed by one of its patch's edges.
+    // If several patches share a cell, each vertex stays near the mean of its own crossings, away from the other
+    // vertices; if it can't reach the surface there, it is placed by one of its patch's edges.
     bool is_crowded = (vertex & VERTEX_IS_CROWDED) != 0u;
     least = is_crowded ? max(least, p - CROWDED_REACH * size) : least;
     most = is_crowded ? min(most, p + CROWDED_REACH * size) : most;
