@@ -39,7 +39,8 @@ Opcode Bt2::opcode(Law) const {
 
 void Bt2::write(const Use&, Tables&, Float4* out) const {
   out[0] = {f32(term(0).range), f32(term(1).range), f32(tightness()), elimination.recorded()};
-  // The first two numbers of a term's record are those of a kLinear, which is what is left if one operand alone is.
+  // The first two numbers of a term's record are those of a kLinear, which takes the blend's place if pruning leaves
+  // one operand.
   for (std::uint32_t i = 0; i < 2; ++i) out[1 + i] = {f32(1 / weight(i)), 0, f32(weight(i)), 0};
 }
 

@@ -1,5 +1,5 @@
-// Difference is the first of fields of either law less the others: max(0, min(f1, 1 - f2)) for positive fields, and
-// max(f1, -f2) for signed ones.
+// Difference is the operator that takes the other fields away from the first one: max(0, min(f1, 1 - f2)) for positive
+// fields, and max(f1, -f2) for signed ones.
 #pragma once
 
 #include "operators/binary.h"

@@ -20,7 +20,8 @@ using base::f32;
 using base::Float4;
 using base::Interval;
 
-// Law is what the values of a field mean (scene.proto, FieldLaw).
+// Law is what the values of a field mean (scene.proto, FieldLaw): positive fields are 0.5 on the surface and fall off
+// to 0 outside, and signed fields are a kind of distance, negative inside.
 enum class Law { kPositive, kSigned };
 
 // Form is how an operator that is written as a union is applied (scene.proto, Form).
@@ -94,7 +95,7 @@ concept OperatorKind = requires(const K& kind, Law law, std::uint32_t operands, 
   { kind.opcode(law) } -> std::same_as<Opcode>;
   // Returns how many vec4s its record takes in the device's buffer of operations.
   { kind.record_size(operands) } -> std::same_as<std::uint32_t>;
-  // Writes that record, which the kind's .glsl reads.
+  // Writes that record, which holds the numbers that the kind's .glsl reads.
   { kind.write(use, tables, out) } -> std::same_as<void>;
 };
 

@@ -92,7 +92,7 @@ ProfileTable silhouette_table(const Silhouette& silhouette) {
     const ProfileTable cells = tabulate(kSilhouetteCells, 1, [&](double z) {
       const Curve q = silhouette.profile(1 - grading.w(z), half);
       double slope = q.d1 * grading.slope(z);
-      // At the fold of a bulge, q = 1 + K d.
+      // Beside the fold of a bulge, q = 1 + K d.
       if (z >= 1 && silhouette.kind == Silhouette::Kind::kBulge && silhouette.k > 0.5) {
         slope = -std::sqrt(silhouette.k / (2 - silhouette.k)) / grading.n();
       }

@@ -80,7 +80,7 @@ PointGrid::Sorted PointGrid::sort(std::span<const float> xyz, const base::ForEac
     part(0);
   };
   const auto bin_of = std::make_unique_for_overwrite<std::uint32_t[]>(count);
-  // For each part and bin, this is first the number of points, and then the place of the next point.
+  // places[part] first has the number of the part's points in each bin, and then the place of the next one of them.
   std::vector<std::vector<std::uint32_t>> places(parts);
   in_parts([&](std::size_t part, std::size_t begin, std::size_t end) {
     places[part].assign(bins, 0);

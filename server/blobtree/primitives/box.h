@@ -1,4 +1,4 @@
-// Box is a box with axis-parallel edges, which may be rounded. The origin of its own frame is its centre.
+// Box is a primitive: a box with axis-parallel edges, which may be rounded. The origin of its own frame is its centre.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Cone is a solid cone around the z axis with flat ends: a frustum, or a cone with a tip if one radius is 0. The origin
-// of its own frame is the middle of its axis.
+// Cone is a primitive: a solid cone around the z axis with flat ends, which is a frustum, or has a tip if one radius is
+// 0. The origin of its own frame is the middle of its axis.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Cylinder is a solid cylinder around the z axis with flat ends. The origin of its own frame is its centre.
+// Cylinder is a primitive: a solid cylinder around the z axis with flat ends. The origin of its own frame is its
+// centre.
 #pragma once
 
 #include <algorithm>

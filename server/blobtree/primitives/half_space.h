@@ -1,5 +1,5 @@
-// HalfSpace is everything on one side of a plane, z <= 0. It is unbounded, so that a model which nothing else bounds is
-// meshed within the bounds that a request states.
+// HalfSpace is a primitive: everything on one side of a plane, z <= 0. It is unbounded, so that a model which nothing
+// else bounds is meshed within the bounds that a request states.
 #pragma once
 
 #include "blobtree/primitives/kind.h"

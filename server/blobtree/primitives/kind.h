@@ -73,7 +73,7 @@ concept PrimitiveKind = requires(const K& kind, const dvec3& q, const Affine& to
   { kind.support(to_world, number) } -> std::same_as<Box>;
   // Returns the operand that an instruction has for the kind, either in a domain that keeps lengths or in any domain.
   { kind.operand(is_rigid) } -> std::same_as<Operand>;
-  // Writes the record of that operand, which the kind's .glsl reads.
+  // Writes the record of that operand, which holds the numbers that the kind's .glsl reads.
   { kind.write(domain, slope, operand, out) } -> std::same_as<void>;
 };
 

@@ -1,4 +1,5 @@
-// Segment is a round cone: the convex hull of two spheres, one around the origin and one around (0, 0, length).
+// Segment is a primitive: a round cone, which is the convex hull of two spheres, one around the origin and one around
+// (0, 0, length).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Sphere is a sphere around the origin.
+// Sphere is a primitive: a sphere around the origin.
 #pragma once
 
 #include <algorithm>

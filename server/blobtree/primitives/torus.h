@@ -1,4 +1,4 @@
-// Torus is a torus around the z axis. The origin of its own frame is its centre.
+// Torus is a primitive: a torus around the z axis. The origin of its own frame is its centre.
 #pragma once
 
 #include <cmath>

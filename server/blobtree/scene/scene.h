@@ -32,7 +32,7 @@ struct Node {
 struct Scene {
   std::vector<Node> nodes;
   std::uint32_t root = 0;
-  // Indices of the nodes that the root reaches, each after its children.
+  // This has the indices of the nodes that the root reaches, each after its children.
   std::vector<std::uint32_t> order;
 };
 
