@@ -1,5 +1,6 @@
-# Writes TEXTS to OUTPUT as pairs of a name, as it is included, and a raw string literal:
-# cmake -DTEXTS=... -DFOLDERS=... -DOUTPUT=... -P embed_texts.cmake. A text's name is its path below one of FOLDERS.
+# Writes the files TEXTS to the file OUTPUT as C++ pairs of a name and a raw string literal. A text's name is its path
+# below one of FOLDERS, by which shaders include it. It is called as
+# cmake -DTEXTS=... -DFOLDERS=... -DOUTPUT=... -P embed_texts.cmake.
 set(pairs "")
 foreach(path ${TEXTS})
   set(name ${path})

@@ -1,4 +1,4 @@
-// The compiled entry points of this folder.
+// Declares the compiled entry points (kernels) of this folder as SPIR-V, for the code that makes Vulkan pipelines.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,16 @@ extern const Spirv kPointsValue, kPointsGradient, kSortedPointsValue, kSortedPoi
 extern const Spirv kGridValue, kGridGradient;
 extern const Spirv kMeshSample, kMeshShare, kMeshClassify, kMeshNear, kMeshSettle, kMeshConnect, kMeshList,
     kMeshQuads, kMeshQuadsSmooth, kMeshTriangles;
-// A workgroup takes what a brick has in rounds of as many as it has invocations: 32, or 8. On lavapipe the subgroups of
-// a workgroup run one after the other, and idle ones cost, too: with four of 8 a mesh of 1,000 spheres takes 1.1 times
-// as long as with one.
+// A kernel in which one workgroup takes one brick. The workgroup handles the brick's vertices or quads in rounds, each
+// of as many as it has invocations: 32 in the wide version, 8 in the narrow one. On lavapipe the narrow version is
+// faster, because the subgroups of a workgroup run one after the other there, and idle ones take time too.
 struct InRounds {
   Spirv wide, narrow;
 };
 extern const InRounds kMeshCrossings, kMeshPlace, kMeshPlaceSmooth, kMeshCreases, kMeshVertices, kMeshNormals;
 extern const Spirv kOperatorEval;
-// operator_volume.comp by silhouette and half; sampled_volume.comp.
+// These fill volumes. The first four are operator_volume.comp, compiled for the smooth silhouette or one given by a
+// table, and for the half of the rows with low or high f1; the last is sampled_volume.comp.
 extern const Spirv kSmoothVolumeLow, kSmoothVolumeHigh, kTableVolumeLow, kTableVolumeHigh, kSampledVolume;
 extern const Spirv kOperatorBlendProbe, kOperatorFirstProbe, kOperatorVolumeProbe;
 

@@ -1,4 +1,4 @@
-// The field on a lattice: a workgroup takes a brick and writes into the dense array of the layers wanted.
+// Evaluates the field on a lattice. A workgroup takes one brick and writes into the dense array of the wanted layers.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

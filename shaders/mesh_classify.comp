@@ -1,4 +1,4 @@
-// Mesher, pass 3: which corners of each cell are inside, four cells an invocation.
+// Mesher, pass 3: finds which corners of each cell are inside. An invocation takes four cells.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -6,13 +6,13 @@
 
 layout(local_size_x = 64) in;
 
-// of the slab that starts at brick `first`
+// The samples of the slab that starts at brick `first`.
 layout(std430, binding = BINDING_MESH_CLASSIFY_SAMPLES) readonly buffer Samples { float samples[]; };
 layout(std430, binding = BINDING_MESH_CLASSIFY_CASES) writeonly buffer Cases { uint cases[]; };  // four cells a word
-// 1: has samples near iso
+// 1 for a brick with samples near iso.
 layout(std430, binding = BINDING_MESH_CLASSIFY_NEAR_BRICKS) writeonly buffer NearBricks { uint near_bricks[]; };
 
-// the bricks of the slab that are asked, or none
+// The bricks of the slab to classify, if the dispatch is listed.
 layout(std430, binding = BINDING_MESH_CLASSIFY_LISTED) readonly buffer Listed { uint listed[]; };
 
 void main() {

@@ -1,4 +1,5 @@
-// Mesher, pass 4: numbers the vertices of each brick's cells and counts vertices and quads, one invocation a brick.
+// Mesher, pass 4: numbers the vertices of each brick's cells and counts vertices and quads. An invocation takes one
+// brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -25,8 +26,8 @@ void main() {
     if (inside != 0u && inside != 0xffu) {
       uint doubt = surface_cases[inside].x >> 28u & 7u;
       if (doubt != 0u) {
-        // Two cells that meet in an ambiguous face would share two edges of the mesh there if both had one patch on it:
-        // both resolve it the other way.
+        // If two cells that meet in an ambiguous face both had one patch on it, they would share two edges of the mesh
+        // there. So both resolve the face the other way.
         uint face = doubt - 1u;
         ivec3 step = ivec3(axis_vector(face >> 1u)) * ((face & 1u) == 0u ? -1 : 1);
         CellRef other = cell_ref(b, ivec3(cell_in_brick(c)) + step);

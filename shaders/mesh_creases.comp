@@ -1,4 +1,4 @@
-// Mesher, pass 8: draws the vertices on creases to where the sides of the crease meet, one workgroup a brick.
+// Mesher, pass 8: moves the vertices on creases to where the sides of the crease meet. A workgroup takes one brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
@@ -12,25 +12,29 @@ layout(std430, binding = BINDING_MESH_JOBS) readonly buffer Jobs { uint jobs[]; 
 layout(std430, binding = BINDING_MESH_VERTICES) readonly buffer Vertices { uint vertex_list[]; };
 layout(std430, binding = BINDING_MESH_POSITIONS) buffer Positions { float positions[]; };
 
-// Each round takes the tangent planes anew, on the way from the vertex to a crossing on every side: what the curvature of
-// a side adds falls with the square of that distance, as does what a steering direction lacks of the gradient with the
-// distance.
+// Each round evaluates the tangent planes anew, at points on the way from the vertex to a crossing on every side, at
+// these fractions of the way. The error from the curvature of a side falls with the square of that distance; the
+// difference between a steering direction and the gradient falls with the distance.
 const int ROUNDS = 3;
 const float FIRST_PULL = 0.35, PULL = 0.07;
-// And a little further out of the cell along the side: where the crease lies in a face, a side may lie beyond it.
-// At first further where a side lies in the cell's face: all of the solid may be beyond.
+// The points also lie a little further out of the cell along the side, by this distance in cells: where the crease lies
+// in a face, a side may lie beyond it. In the first round the distance is larger if a side lies in the cell's face,
+// because all of the solid may lie beyond it.
 const float BEYOND = 0.1, BEYOND_FACE = 0.3;
-// Of the meeting point. Little: the way that a face which holds the vertex leaves it may meet a side at a few degrees.
+// The damping of the meeting point. It is small, because the way along which a face that holds the vertex leaves it may
+// meet a side at an angle of a few degrees.
 const float DAMPING = 1e-4;
-// A third side may end the crease within the cell and cross none of its edges. It is looked for where the crease would
-// leave the cell: it has cut the surface off there by more than this, in cells, and stands across the crease.
+// A third side may end the crease within the cell without crossing any of the cell's edges. It is looked for where the
+// crease would leave the cell. It counts if it has cut the surface off there by more than LEAST_CUT, in cells, and
+// stands across the crease with a cosine above LEAST_ACROSS.
 const float LEAST_CUT = 0.02, LEAST_ACROSS = 0.35;
 
 void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  // Subgroups go on whole, as mesh_vertices.comp says: surplus invocations repeat the last vertex.
+  // All invocations of a subgroup stay in the loop, as mesh_vertices.comp explains: surplus ones repeat the last
+  // vertex.
   for (uint own = starts[b].x + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
     uint v = min(own, end - 1u);
     uint vertex = vertex_list[v];
@@ -48,12 +52,14 @@ void main() {
     vec3 x = (vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]) - low) / size;
     float first_beyond = (vertex & VERTEX_BY_SURFACE) != 0u ? BEYOND_FACE : BEYOND;
     Planes planes = no_planes();
-    vec3 n0 = vec3(0.0), n1 = vec3(0.0), n2 = vec3(0.0);  // of the sides, as last seen
-    // Along the crease: where it leaves the cell on either way, and where a third side ends it.
+    vec3 n0 = vec3(0.0), n1 = vec3(0.0), n2 = vec3(0.0);  // the sides' normals, as last evaluated
+    // The direction of the crease, the places along it where it leaves the cell on either way, and where a third side
+    // ends it.
     vec3 ahead = vec3(0.0);
     float back = 0.0, forth = 0.0, to_end = 0.0;
     bool may_end = false, ends = false;
-    // First the crease, then its end; one loop within for both, so that the kernel holds the tape's code once.
+    // Stage 0 finds the crease, stage 1 its end. One inner loop serves both, so that the kernel holds the tape's code
+    // once.
     for (int stage = 0; stage < 2; ++stage) {
       if (stage == 1) {
         ahead = cross(n0, n1);
@@ -75,7 +81,7 @@ void main() {
         bool is_first = step < 3;
         vec3 q = mix(x, at_side, is_first ? FIRST_PULL : PULL) +
                  (is_first ? first_beyond : BEYOND) * (outwards - dot(outwards, facing) * facing);
-        // The last time from close by: a side may be curved.
+        // The last step looks from close by, because a side may be curved.
         float along = step == 0 ? back : step == 1 ? forth : mix(to_end, to_end > 0.0 ? forth : back, PULL);
         q = stage == 0 ? q : x + along * ahead;
         Field a = evaluate(low + q * size, at.tape_begin, at.tape_count);

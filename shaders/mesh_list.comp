@@ -1,4 +1,5 @@
-// Mesher, pass 5: lists every vertex with its cell and patch, and every quad with its edge, one invocation a brick.
+// Mesher, pass 5: lists every vertex with its cell and patch, and every quad with its edge. An invocation takes one
+// brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -8,11 +9,11 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = BINDING_MESH_SURFACE_CASES) readonly buffer SurfaceCases { uvec4 surface_cases[]; };
 layout(std430, binding = BINDING_MESH_CELLS) readonly buffer Cells { uint cells_in[]; };
-// first vertex, first quad of a brick
+// The numbers of the first vertex and the first quad of each brick.
 layout(std430, binding = BINDING_MESH_LIST_STARTS) readonly buffer Starts { uvec2 starts[]; };
-// mesh_constants.glsl
+// The vertices, in the form of mesh_constants.glsl.
 layout(std430, binding = BINDING_MESH_LIST_VERTICES) writeonly buffer Vertices { uint vertex_list[]; };
-// brick, cell | axis << 8 | inside << 10
+// The quads: the brick, and cell | axis << 8 | inside << 10, where `inside` tells whether the edge's low end is inside.
 layout(std430, binding = BINDING_MESH_QUADS) writeonly buffer Quads { uvec2 quad_list[]; };
 
 void main() {

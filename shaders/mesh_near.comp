@@ -1,4 +1,4 @@
-// Mesher, pass 3b: which octets hold samples that may be on the surface, an invocation an octet.
+// Mesher, pass 3b: finds which octets hold samples that may be on the surface. An invocation takes one octet.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -6,10 +6,10 @@
 
 layout(local_size_x = 64) in;
 
-// their places in the slab
+// The places in the slab of the bricks to check.
 layout(std430, binding = BINDING_MESH_NEAR_LISTED) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = BINDING_MESH_NEAR_SAMPLES) readonly buffer Samples { float samples[]; };
-// OCTETS a brick: 0 or 1
+// OCTETS entries for each brick: 1 for an octet with samples near iso, else 0.
 layout(std430, binding = BINDING_MESH_NEAR_NEAR_OCTETS) writeonly buffer NearOctets { uint near_octets[]; };
 
 void main() {

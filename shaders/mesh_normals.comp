@@ -1,4 +1,4 @@
-// Mesher, pass 10: unit outward normals from the field's gradient, one workgroup a brick.
+// Mesher, pass 10: computes unit outward normals from the field's gradient. A workgroup takes one brick.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
@@ -18,11 +18,12 @@ void main() {
   uint b = jobs[2u * (first + gl_WorkGroupID.x)];
   Brick at = brick(b);
   uint end = starts[b + 1u].x;
-  // Subgroups go on whole, as mesh_vertices.comp says: surplus invocations repeat the last vertex.
+  // All invocations of a subgroup stay in the loop, as mesh_vertices.comp explains: surplus ones repeat the last
+  // vertex.
   for (uint own = starts[b].x + gl_LocalInvocationID.x; subgroupAny(own < end); own += gl_WorkGroupSize.x) {
     uint v = min(own, end - 1u);
     vec3 p = vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
-    // Scaled by the cell first: in large units the square of a gradient underflows.
+    // The gradient is scaled by the cell first: in large units its square underflows.
     vec3 n = -inward() * origin.w * field_gradient(evaluate(p, at.tape_begin, at.tape_count));
     float length2 = dot(n, n);
     n = length2 > 1e-30 ? n * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);

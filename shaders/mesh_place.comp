@@ -1,7 +1,8 @@
-// Mesher, pass 7: where every vertex starts, one workgroup a brick: at the mean of its patch's crossings or, in bricks
-// that may have creases, where the tangent planes there meet (dual contouring: Ju, Losasso, Schaefer, Warren 2002); and
-// finds the creases. SMOOTH: of the other bricks, without what is there for creases: on lavapipe a branch that no
-// invocation takes costs as much as one that all take.
+// Mesher, pass 7: places every vertex at its start and finds the creases. A workgroup takes one brick. A vertex starts
+// at the mean of its patch's crossings or, in bricks that may have creases, where the tangent planes at the crossings
+// meet (dual contouring: Ju, Losasso, Schaefer, Warren 2002). SMOOTH is defined for the bricks that may not have
+// creases, and leaves out what creases need, because on lavapipe a branch that no invocation takes costs as much as one
+// that all take.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -13,18 +14,20 @@ layout(std430, binding = BINDING_MESH_SURFACE_CASES) readonly buffer SurfaceCase
 layout(std430, binding = BINDING_MESH_VERTICES) buffer Vertices { uint vertex_list[]; };  // mesh_constants.glsl
 layout(std430, binding = BINDING_MESH_POSITIONS) writeonly buffer Positions { float positions[]; };
 layout(std430, binding = BINDING_MESH_PLACE_KINDS) buffer Kinds { uint kinds[]; };
-// of the slab that starts at brick `first`
+// The samples of the slab that starts at brick `first`.
 layout(std430, binding = BINDING_MESH_PLACE_SAMPLES) readonly buffer Samples { float samples[]; };
-// bricks, one a workgroup
+// The bricks to place, one for each workgroup.
 layout(std430, binding = BINDING_MESH_PLACE_PLACED) readonly buffer Placed { uint placed[]; };
 
-// A patch is taken to hold a crease where the mean of the squared sines between its normals and their mean is more:
-// creases that turn by about 25 degrees, and surfaces with a radius of up to 2.5 cells.
+// A patch counts as holding a crease if the mean of the squared sines between its normals and their mean exceeds this.
+// This holds for creases that turn by about 25 degrees or more, and for surfaces with a radius of up to 2.5 cells.
 const float CREASE_SPREAD = 0.04;
-// Of the meeting point: tangent planes at the crossings tell nothing of a curved side's turn in between.
+// The damping of the meeting point. It is needed because the tangent planes at the crossings do not show how a curved
+// side turns between them.
 const float DAMPING = 2e-3;
-// What a cell's distance across the crease counts beside the cosine between a crossing's normal and another: of those of
-// one side the furthest is taken, since the way to one beside the crease leads along it and onto its other side.
+// The weight of a distance across the crease, in cells, beside the cosine between two normals. Of the crossings of one
+// side the one furthest from the crease is taken, because the way to a crossing beside the crease leads along the
+// crease and onto its other side.
 const float ACROSS = 0.1;
 
 void main() {
@@ -69,8 +72,8 @@ void main() {
     float spread = 1.0 - dot(facing, times(planes, facing)) / (count * max(dot(facing, facing), 1e-12));
     bool on_crease = MAY_HAVE_CREASES && spread > CREASE_SPREAD && !on_cap && !is_crowded;
     if (on_crease) {
-      // The crossing that faces furthest from the mean, that which faces furthest from it, and that which faces furthest
-      // from the plane of the two.
+      // Three crossings are chosen: the one that faces furthest from the mean, the one that faces furthest from the
+      // first, and the one that faces furthest from the plane of these two.
       vec3 ahead = facing * inversesqrt(max(dot(facing, facing), 1e-12));
       vec3 axis = -ahead, second = vec3(0.0);
       uint chosen = 0u;

@@ -1,11 +1,12 @@
-// Mesher, pass 11: how each quad is cut into triangles.
+// Mesher, pass 11: decides how each quad is cut into triangles.
 //
-// Within the envelope, the tetrahedra that the quad's edge spans with two consecutive vertices each, no two quads'
-// triangles meet but where they share vertices: envelopes of different edges have no inner point in common where the
-// vertices lie in their cells (Ju and Udeshi, "Intersection-free contouring on an octree grid", 2006). A fan around the
-// crossing of the edge always lies within; a pair of triangles is taken where it does.
+// The envelope of a quad is the union of the tetrahedra that the quad's edge spans with two consecutive vertices each.
+// If all triangles lie within their envelopes, triangles of different quads meet only where they share vertices,
+// because envelopes of different edges have no inner point in common if the vertices lie in their cells (Ju and Udeshi,
+// "Intersection-free contouring on an octree grid", 2006). A fan around the crossing of the edge always lies within the
+// envelope; a pair of triangles is taken where it does too.
 //
-// SMOOTH: where no brick may have creases.
+// SMOOTH is defined for meshes in which no brick may have creases.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -18,13 +19,15 @@ layout(std430, binding = BINDING_MESH_QUADS_CUTS) writeonly buffer Cuts { uint c
 layout(std430, binding = BINDING_MESH_QUADS_KINDS) readonly buffer Kinds { uint kinds[]; };
 layout(std430, binding = BINDING_MESH_QUADS_CORNERS) writeonly buffer Corners { uvec4 corners[]; };  // Quad::corners
 
-// How far within the envelope, as a part of it.
+// How far within the envelope a pair of triangles must lie, as a fraction of the envelope's size.
 const float SLACK = 1e-3;
-// What a right angle between two triangles counts beside a cell's distance from the crossing, where that is known.
+// The cost of a right angle between two triangles, beside the distance from the crossing, in cells, where that is
+// known.
 const float BEND = 0.02;
 const float REFUSED = 1e30;
 
-// From the low end of the edge, in cells, along the next two axes in cyclic order and the edge's.
+// Returns a vertex's position from the low end of the edge, in cells, along the next two axes in cyclic order and then
+// along the edge's axis.
 vec3 place(uint v, vec3 edge, uint axis) {
   vec3 p = (vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]) - edge) / origin.w;
   return axis == 0u ? p.yzx : axis == 1u ? p.zxy : p;
@@ -32,13 +35,14 @@ vec3 place(uint v, vec3 edge, uint axis) {
 
 float turn(vec3 a, vec3 b) { return a.x * b.y - a.y * b.x; }
 
-// What cutting the quad a, b, c, d along a c costs: the distance between its triangles and the crossing on the edge, and
-// their bend. Seen along the edge the vertices lie around it counter-clockwise, and their triangles and the envelope are
-// linear between the edge, the vertices, and the diagonal's crossing of the ray from the edge to b or d.
+// Returns the cost of cutting the quad a, b, c, d along a c, which grows with the distance between its triangles and
+// the crossing on the edge, and with their bend. Seen along the edge, the vertices lie around it counter-clockwise. So
+// the triangles and the envelope are linear between the edge, the vertices, and the point where the diagonal crosses
+// the ray from the edge to b or d.
 float cost(vec3 a, vec3 b, vec3 c, vec3 d, float crossing, bool knows_crossing) {
   vec3 n0 = cross(b - a, c - a), n1 = cross(c - a, d - a);
   float flatness = dot(n0, n1) * inversesqrt(max(dot(n0, n0) * dot(n1, n1), 1e-36));
-  // The diagonal passes between the edge and b.
+  // The points are renamed so that the diagonal passes between the edge and the second of them.
   bool swapped = turn(a, c) < 0.0;
   vec3 p = swapped ? c : a, q = swapped ? d : b, r = swapped ? a : c, s = swapped ? b : d;
   float pq = turn(p, q), qr = turn(q, r), pr = turn(p, r), rs = turn(r, s), sp = turn(s, p);
@@ -51,8 +55,8 @@ float cost(vec3 a, vec3 b, vec3 c, vec3 d, float crossing, bool knows_crossing) 
   return is_within ? (knows_crossing ? abs(on_edge - crossing) : 0.0) + BEND * (1.0 - flatness) : REFUSED;
 }
 
-// Whether a vertex of the quad lies in a brick that may have creases. What bricks without vertices may have is of no
-// importance to it.
+// True if a vertex of the quad lies in a brick that may have creases. Neighbours without vertices do not affect the
+// quad.
 bool may_crease_around(Quad q) {
   if (!MAY_HAVE_CREASES || (kinds[q.edge.brick] & KNOWS_CROSSINGS) == 0u) return false;
   bool may_crease = false;

@@ -1,4 +1,5 @@
-// Mesher, pass 1: the field at the corners of bricks' cells, or `shift` beside them, eight invocations an octet.
+// Mesher, pass 1: evaluates the field at the corners of bricks' cells, or at the distance `shift` beside them. Eight
+// invocations take one octet.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -7,12 +8,12 @@
 
 layout(local_size_x = 64) in;
 
-// The brick, and its place in the slab times OCTETS + the octet.
+// A job: the brick, and its place in the slab times OCTETS plus the octet.
 layout(std430, binding = BINDING_MESH_JOBS) readonly buffer Jobs { uint jobs[]; };
 layout(std430, binding = BINDING_MESH_SAMPLE_SAMPLES) writeonly buffer Samples { float samples[]; };
 
 void main() {
-  // Surplus invocations repeat the last octet: no branch around the tape (TAPE_LENGTH).
+  // Surplus invocations repeat the last octet, so that no branch surrounds the tape's evaluation (TAPE_LENGTH).
   uint at = 2u * (first + min(gl_GlobalInvocationID.x / OCTET_CORNERS, count - 1u));
   Brick b = brick(jobs[at]);
   uint place = jobs[at + 1u] >> OCTET_BITS, octet = jobs[at + 1u] & (OCTETS - 1u);

@@ -1,4 +1,5 @@
-// Mesher, pass 2: the samples that bricks take over from those beside them, eight invocations an octet.
+// Mesher, pass 2: copies the samples that bricks share from the neighbours that own them. Eight invocations take one
+// octet.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -6,7 +7,7 @@
 
 layout(local_size_x = 64) in;
 
-// SlabOctets::taken_over
+// The jobs, in the form of SlabOctets::taken_over.
 layout(std430, binding = BINDING_MESH_SHARE_OCTETS) readonly buffer Octets { uvec4 octets[]; };
 layout(std430, binding = BINDING_MESH_SHARE_SAMPLES) buffer Samples { float samples[]; };
 

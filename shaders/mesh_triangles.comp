@@ -1,4 +1,5 @@
-// Mesher, pass 12: the triangles of each quad, counter-clockwise seen from outside, and the vertices amid fans.
+// Mesher, pass 12: writes the triangles of each quad, counter-clockwise seen from outside, and the vertices in the
+// middle of fans.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -9,7 +10,8 @@ layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_MESH_TRIANGLES_CUTS) readonly buffer Cuts { uint cuts[]; };  // cut | fans before << 2
 layout(std430, binding = BINDING_MESH_TRIANGLES_TRIANGLES) writeonly buffer Triangles { uint triangles[]; };
 layout(std430, binding = BINDING_MESH_TRIANGLES_FAN_STARTS) readonly buffer FanStarts { uvec2 fan_starts[]; };
-layout(std430, binding = BINDING_MESH_TRIANGLES_CENTRES) writeonly buffer Centres { float centres[]; };  // of the fans
+// The positions of the fans' centres.
+layout(std430, binding = BINDING_MESH_TRIANGLES_CENTRES) writeonly buffer Centres { float centres[]; };
 layout(std430, binding = BINDING_MESH_TRIANGLES_CORNERS) readonly buffer Corners { uvec4 corners[]; };  // Quad::corners
 
 void write_triangle(uint t, uint a, uint b, uint c) {
@@ -23,7 +25,7 @@ void main() {
   if (n >= count) return;
   uint q = first + n;
   ListedQuad at = listed_quad(q);
-  // Counter-clockwise about the axis as they stand: right when the surface faces along it.
+  // The vertices are counter-clockwise about the axis, which is right if the surface faces along the axis.
   uvec4 v = corners[q];
   v = at.inside_low ? v : v.xwzy;
   uint cut = cuts[q] & 3u, fans = cuts[q] >> 2u;
@@ -33,7 +35,7 @@ void main() {
     write_triangle(t, v.x, v.y, across ? v.w : v.z);
     write_triangle(t + 1u, across ? v.y : v.x, v.z, v.w);
   } else {
-    // After the vertices of the brick's cells.
+    // The centres of fans are numbered after the vertices of the brick's cells.
     uint centre = starts[at.brick + 1u].x - starts[at.brick].x + fans - fan_starts[at.brick].x;
     write_triangle(t, v.x, v.y, centre);
     write_triangle(t + 1u, v.y, v.z, centre);

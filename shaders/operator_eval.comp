@@ -1,7 +1,8 @@
-// One operator at given field values: its value and partial derivatives, one invocation a row of arguments.
+// Evaluates one operator at given field values: its value and partial derivatives. An invocation takes one row of
+// arguments.
 //
-// The operands are fields whose directions are unit vectors, so that the direction of the result holds the partials: of
-// up to three operands at a time, or of two and what steers the operator.
+// The operands are fields whose directions are unit vectors, so that the direction of the result holds the partials:
+// those by up to three operands at a time, or those by two operands and by theta or alpha.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,11 +18,12 @@ const uint STEERING_NONE = 0u, STEERING_THETA = 1u, STEERING_ALPHA = 2u;
 layout(push_constant) uniform Constants {
   uint count;
   uint operands;
-  // A row of arguments holds the fields; then tan(theta) or alpha, or, for an operator that follows an angle, the angle's
-  // cosine and sine and the ratio of the gradients' lengths. The host has those functions to the last bit, Vulkan to 2^-11.
+  // A row of arguments holds the fields, and after them tan(theta) or alpha or, for an operator that follows an angle,
+  // the angle's cosine and sine and the ratio of the gradients' lengths. The host computes these functions to the last
+  // bit; in Vulkan their error may be 2^-11.
   uint columns;
   uint steering;
-  uint code;      // as of an instruction
+  uint code;      // in the form of an instruction's first word
   uint record;
   uint is_opening;  // the column is alpha, the results are theta and its derivative
 };
@@ -34,8 +36,8 @@ Field operand(float f, uint slot) {
   return a;
 }
 
-// The blend at `by` = tan(theta), or through the opening at alpha; slot 2 of the direction is the derivative by theta or
-// alpha.
+// Returns the blend at tan(theta) = `by`, or at alpha = `by` through the opening. Component 2 of the direction is the
+// derivative by theta or alpha.
 Field steered(Field a, Field b, uint op, float by) {
   vec4 operation = operation_at(record);
   vec2 t = vec2(by, 1.0 + by * by);
@@ -53,7 +55,7 @@ Field steered(Field a, Field b, uint op, float by) {
   return select_field(r, b, a.f <= 0.0);
 }
 
-// With derivatives by the operands from `slot` on.
+// Returns the operator's result for a row, with derivatives by the three operands from `slot` on.
 Field result(uint row, uint slot) {
   uint op = code >> 8u & 0xffu, mode = code >> 16u, at = row * columns;
   float by = steering != STEERING_NONE ? arguments[at + operands] : 0.0;
@@ -75,7 +77,7 @@ Field result(uint row, uint slot) {
     }
     uint mask = (1u << operands) - 1u, form = mode & 3u;
     if (form != FORM_UNION) turn_operands(x, mask, form);
-    angle.ratio = reciprocal(angle.ratio);  // that of x[0] over x[1]
+    angle.ratio = reciprocal(angle.ratio);  // x[0], the last operand, comes first
     r = unite_many(x, op, mask, record, angle);
     r = select_field(r, linear(r, -1.0, 0.0), form != FORM_UNION);
   } else {
@@ -89,12 +91,12 @@ Field result(uint row, uint slot) {
     else r = unite(a, b, op, record, angle);
     if (has_modes()) r = formed(r, first, second, mode);
   }
-  // Operators that follow an angle keep its derivative in the gradient alone.
+  // Operators that follow an angle have the derivative by it only in the gradient.
   if (may_follow_angle()) r.d = r.g;
   return r;
 }
 
-// Results beyond float32 are its largest numbers.
+// Returns x, or the largest float32 number of its sign if x is beyond float32.
 float within_float(float x) { return clamp(x, -3.4028235e38, 3.4028235e38); }
 
 void main() {

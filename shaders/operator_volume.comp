@@ -1,7 +1,8 @@
-// The volume of the gradient blend, [G] section 4.3: (g, dg/df1, dg/df2, dg/dtheta) at size^3 nodes, f1 and f2 over
-// [0, 1], theta over [0, pi/4], f1 fastest. SMOOTH: the smooth silhouette, else the one whose table starts at 0.
-// The rows f1 < 0.5 <= FLAT: beyond 0.5 the boundary is constant, and g needs no iteration. Both fill their half of the
-// nodes with f2 <= f1, and mirror it.
+// Fills the volume of the gradient blend, [G] section 4.3: (g, dg/df1, dg/df2, dg/dtheta) at size^3 nodes over f1 and
+// f2 in [0, 1] and theta in [0, pi/4], with f1 varying fastest. SMOOTH selects the smooth silhouette, otherwise it is
+// the one whose table starts at 0. FLAT selects the rows with f1 >= 0.5, where the boundary is constant and g needs no
+// iteration, otherwise it fills the rows with f1 < 0.5. Each version computes the nodes of its rows with f2 <= f1, and
+// mirrors them.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -9,7 +10,7 @@
 
 layout(local_size_x = 32) in;
 
-// t, dt/dtheta of every layer
+// t = tan(theta) and dt/dtheta for every layer.
 layout(std430, binding = BINDING_OPERATOR_VOLUME_ANGLES) readonly buffer Angles { vec2 angles[]; };
 layout(std430, binding = BINDING_OPERATOR_VOLUME_NODES) writeonly buffer Nodes { vec4 nodes[]; };
 
@@ -23,7 +24,7 @@ const uint SILHOUETTE = SMOOTH_SILHOUETTE;
 const uint SILHOUETTE = 0u;
 #endif
 
-// gradient_blend() for hi > 0.5: F is linear in C.
+// Returns what gradient_blend() returns for hi >= 0.5, where F is linear in C.
 vec4 flat_blend(float hi, float lo, float t) {
   float k = 0.5 * t, a = hi - k;
   float w = min((hi - lo) / a, 1.0), u = 1.0 - w;
@@ -32,7 +33,7 @@ vec4 flat_blend(float hi, float lo, float t) {
   return vec4(hi + a * (q.x - 1.0), m_hi, m_lo, 0.5 * (1.0 - m_hi - m_lo));
 }
 
-// A workgroup fills two rows of one layer, a long one with a short one, so that all have as much to do.
+// A workgroup fills two rows of one layer, a long one and a short one, so that all workgroups have as much to do.
 void main() {
   uint rows = size / 2u, pairs = rows / 2u;
   uint pair = gl_WorkGroupID.x % pairs, layer = gl_WorkGroupID.x / pairs;

@@ -1,5 +1,5 @@
-// Look-ups in a volume; EXACT: the smooth blend itself, for comparison. FIRST: no second partials. Run by tests and
-// benchmarks.
+// Looks values up in a volume, for tests and benchmarks. EXACT selects the smooth blend itself, for comparison. FIRST
+// leaves the second partials out.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430, binding = BINDING_VOLUME_PROBE_ARGUMENTS) readonly buffer Arguments { vec4 arguments[]; };  // f1, f2, t
-// A row of 3: g, g1, g2, gt; g11, g12, g22; g1t, g2t. FIRST: of the first alone.
+// A row of three vectors: (g, g1, g2, gt), (g11, g12, g22) and (g1t, g2t); with FIRST only the first of them.
 layout(std430, binding = BINDING_VOLUME_PROBE_RESULTS) writeonly buffer Results { vec4 results[]; };
 
 layout(push_constant) uniform Constants {

@@ -1,5 +1,5 @@
-// The field at a batch of points of one tape. No branch around the loads and stores of points: on lavapipe that would
-// make each a loop over the lanes.
+// Evaluates the field at a batch of points with one tape. No branch surrounds the loads and stores of points, because
+// on lavapipe that would make each of them a loop over the lanes.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

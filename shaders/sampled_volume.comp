@@ -1,4 +1,5 @@
-// The volume of an operator that is given by samples alone: partials by central differences, one-sided at the ends.
+// Fills the volume of an operator that is given by samples only. Partials are central differences, one-sided at the
+// ends.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -6,9 +7,9 @@
 
 layout(local_size_x = 64) in;
 
-// size^3, f1 fastest
+// size^3 samples; f1 varies fastest.
 layout(std430, binding = BINDING_SAMPLED_VOLUME_SAMPLES) readonly buffer Samples { float samples[]; };
-// as in operator_volume.comp
+// The nodes of the volume, as in operator_volume.comp.
 layout(std430, binding = BINDING_SAMPLED_VOLUME_NODES) writeonly buffer Nodes { vec4 nodes[]; };
 
 layout(push_constant) uniform Constants {

@@ -1,5 +1,6 @@
-// The field at points that are sorted by their pruned tapes: a subgroup takes up to its size of those of one tape. No
-// branch around the loads and stores of points: on lavapipe that would make each a loop over the lanes.
+// Evaluates the field at points that are sorted by their pruned tapes. A subgroup takes points of one tape, at most as
+// many as it has invocations. No branch surrounds the loads and stores of points, because on lavapipe that would make
+// each of them a loop over the lanes.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -8,15 +9,17 @@
 
 layout(local_size_x = 64) in;
 
-// tape begin, tape count (0: the field is 0), first point, last (engine/points/field_evaluator.cpp)
+// A job: the tape's begin, its count (0 if the field is 0), the first point and the last
+// (engine/points/field_evaluator.cpp).
 layout(std430, binding = BINDING_SORTED_POINTS_JOBS) readonly buffer Jobs { uvec4 jobs[]; };
-// With their places in the batch as bits: read together, where points in another order are far from each other.
+// The points, with the bits of their places in the batch in w. They are stored in the sorted order, because reading
+// them in the order of the batch would access memory at places far from each other.
 layout(std430, binding = BINDING_SORTED_POINTS_POINTS) readonly buffer Points { vec4 points[]; };
 
 layout(push_constant) uniform Constants {
   uint first_job;
   uint last_job;    // surplus subgroups repeat it
-  uint size_shift;  // log2 of the subgroup's size: on lavapipe a division is one for each lane
+  uint size_shift;  // log2 of the subgroup's size; a shift, because on lavapipe each lane would divide by itself
 };
 
 void main() {

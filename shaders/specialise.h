@@ -1,4 +1,5 @@
-// Specialises a kernel before the driver sees it.
+// Specialises a kernel to the constants of a scene's tapes before the driver compiles it, which saves the driver most
+// of its work.
 #pragma once
 
 #include <absl/status/statusor.h>

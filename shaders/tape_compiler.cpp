@@ -23,7 +23,7 @@ std::string_view text_of(std::string_view name) {
   return found == std::end(kTexts) ? std::string_view() : found->text;
 }
 
-// Of "tape.glsl" the tape, of all else the embedded text.
+// Resolves includes: "tape.glsl" is the tape, and every other name is an embedded text.
 class Includer : public glslang::TShader::Includer {
  public:
   explicit Includer(std::string_view tape) : tape_(tape) {}
@@ -39,7 +39,7 @@ class Includer : public glslang::TShader::Includer {
   std::string_view tape_;
 };
 
-// glslang's tables, for as long as the process runs.
+// Keeps glslang's tables for as long as the process runs.
 struct Process {
   Process() { glslang::InitializeProcess(); }
   ~Process() { glslang::FinalizeProcess(); }
@@ -70,7 +70,7 @@ absl::StatusOr<std::vector<std::uint32_t>> compile_tape(const std::string& defin
   }
   std::vector<std::uint32_t> spirv;
   glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), spirv);
-  // What the definitions switch off: glslang folds conditions, and keeps what they guard.
+  // Remove the code that the definitions switch off: glslang folds constant conditions but keeps the branches.
   spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
   optimizer.RegisterPass(spvtools::CreateDeadBranchElimPass())
       .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())

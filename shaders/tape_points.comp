@@ -1,7 +1,7 @@
-// The field at a batch of points of one tape, which is written out as GLSL (server/engine/points/tape_writer.h) and included:
-// Field evaluate_tape(vec3 p). One point an invocation and no branch around the loads and stores of points: on lavapipe
-// what a scene's kernel reads at places known to the compiler is read once for all invocations, and a loop or a branch
-// costs more than the rest of a small tape.
+// Evaluates the field at a batch of points with one tape, which is written as GLSL (server/engine/points/tape_writer.h)
+// and included as the function Field evaluate_tape(vec3 p). An invocation takes one point, and no branch surrounds the
+// loads and stores of points: on lavapipe data that a kernel reads at places known to the compiler are read once for
+// all invocations, and a loop or a branch costs more than the rest of a small tape.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

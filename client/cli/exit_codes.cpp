@@ -5,7 +5,7 @@
 namespace isofield {
 namespace {
 
-// Payloads survive the way up to main; their text is not used.
+// A status keeps its payloads on its way up to main(). They only serve as marks; their contents are empty.
 constexpr char kFilePayload[] = "isofield/file";
 constexpr char kUsagePayload[] = "isofield/usage";
 

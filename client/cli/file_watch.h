@@ -13,7 +13,7 @@ namespace isofield {
 // Tells when a file has changed: somebody has written and closed it, or put another one in its place, as editors do.
 // The folder is watched, so the file may vanish for a while. For a symbolic link, changes of its target count as well.
 //
-// Linux only (inotify); single-threaded.
+// It owns an inotify descriptor, so it works on Linux only. It is single-threaded.
 class FileWatch {
  public:
   // Changes count from this call on. The folder of the file must exist. Errors name the path.
@@ -31,12 +31,12 @@ class FileWatch {
   // Watches the folders of the path and of what it leads to at present.
   absl::Status follow();
   absl::Status watch(const std::string& path);
-  // Takes the events that have come, and waits for some if `blocks`. True where one of them is about the file.
+  // Reads the events that have come, and waits for some if `blocks` is true. Returns true if one is about the file.
   absl::StatusOr<bool> take_events(bool blocks);
 
   const std::string path_;
   const int descriptor_;
-  std::vector<std::pair<int, std::string>> names_;  // number of a watched folder, and a file's name in it
+  std::vector<std::pair<int, std::string>> names_;  // the number of a watched folder, and the name of a file in it
 };
 
 }  // namespace isofield

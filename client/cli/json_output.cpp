@@ -17,7 +17,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
 
-// The shortest decimal number that reads back as the same value; null where it is not finite.
+// Returns the shortest decimal number that reads back as the same value, or null if the value is not finite.
 template <class Number>
 std::string number(Number value) {
   if (!std::isfinite(value)) return "null";
@@ -25,7 +25,7 @@ std::string number(Number value) {
   return std::string(digits, std::to_chars(digits, digits + sizeof(digits), value).ptr);
 }
 
-// A JSON string. JSON is UTF-8, but names of files need not be: other bytes become U+FFFD.
+// Returns the text as a JSON string. JSON is UTF-8, but names of files need not be: other bytes become U+FFFD.
 std::string quoted(absl::string_view text) {
   std::string out = "\"";
   for (const char c : valid_utf8(text)) {
@@ -49,7 +49,7 @@ std::string list(const Items& items, const Format& format) {
   return out + "]";
 }
 
-// The value of a field, or that of its element `i` where the field is a list, as JSON.
+// Returns the value of a field as JSON; if the field is a list, the value of its element `i`.
 std::string value_of(const Message& message, const FieldDescriptor* field, int i) {
   const Reflection& r = *message.GetReflection();
   const bool is_list = field->is_repeated();

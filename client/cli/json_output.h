@@ -11,13 +11,13 @@
 
 namespace isofield {
 
-// An object for --json, built field by field. Keys keep the order in which they are set; fields of messages keep the
-// order of the .proto files. Numbers are JSON numbers, 64-bit ones too; infinities and NaN are null.
+// Builds a JSON object for --json, field by field. Keys keep the order in which they are set; fields of messages keep
+// the order of the .proto files. Numbers, also those of 64 bits, are JSON numbers; infinities and NaN are null.
 class JsonObject {
  public:
   JsonObject() = default;
-  // Starts with the fields of a message, named as in the .proto files. Fields that are not set have their defaults, but
-  // optional ones and messages are left out then. Enum values are written as names, bytes as Base64.
+  // Starts with the fields of a message, named as in the .proto files. A field that is not set has its default, but an
+  // optional field or a message that is not set is left out. Enum values are written as names, bytes as Base64.
   explicit JsonObject(const google::protobuf::Message& message);
 
   JsonObject& set(const std::string& key, double value);
@@ -36,13 +36,13 @@ class JsonObject {
     return set(key, JsonObject(message));
   }
 
-  // The object on one line.
+  // Returns the object as JSON on one line.
   std::string text() const;
   // Prints text() as a line on the standard output.
   void print() const;
 
  private:
-  // A key that is there already keeps its place.
+  // Sets a key to a value that is JSON already. A key that is there already keeps its place.
   JsonObject& set_text(const std::string& key, std::string text);
 
   std::vector<std::pair<std::string, std::string>> fields_;
@@ -51,6 +51,7 @@ class JsonObject {
 // Prints a message as JsonObject writes it, as a line on the standard output.
 void print_json(const google::protobuf::Message& message);
 
+// Converts the report of an import; its findings become an object of counts.
 JsonObject to_json(const ImportReport& report);
 
 }  // namespace isofield

@@ -16,7 +16,7 @@
 namespace isofield {
 namespace {
 
-// The arguments with "-.5" written as "-0.5": CLI11 would take the former for an option.
+// Returns the arguments with "-.5" rewritten as "-0.5", because CLI11 would take the former for an option.
 std::vector<std::string> readable_arguments(int argc, char** argv) {
   std::vector<std::string> arguments(argv, argv + argc);
   for (std::string& text : arguments) {

@@ -7,9 +7,9 @@
 
 namespace isofield {
 
-// Refuses an output whose ending is that of a kind of file which the command does not write, and names the command that
-// does: "a.glb" is no name for a scene. `written` has the endings that the command writes. Unknown endings are
-// accepted.
+// Checks the name of an output file, so that a command does not write a scene to "a.glb". It refuses, as an error of
+// usage, an ending that means a kind of file which the command does not write; the message names the command that does.
+// `written` lists the endings that the command writes. Unknown endings are accepted.
 absl::Status check_output_ending(const std::string& path, std::initializer_list<const char*> written);
 
 }  // namespace isofield

@@ -16,13 +16,14 @@ namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 20;
 
-// What the signal handler removes; it may only read memory that is always there.
+// The name of the file that the signal handler removes. It is a global array because a signal handler may only read
+// memory that always exists.
 char pending_path[PATH_MAX];
 volatile sig_atomic_t is_pending = 0;
 
 void remove_and_die(int signal_number) {
   if (is_pending) ::unlink(pending_path);
-  // The handler was reset (SA_RESETHAND): the parent sees a death by this signal.
+  // SA_RESETHAND has restored the default action, so the parent process sees that this signal ended the program.
   ::raise(signal_number);
 }
 
@@ -59,7 +60,7 @@ absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(const std::string
     return std::unique_ptr<OutputFile>(new OutputFile(path, "", descriptor));
   }
   std::string temporary = path + ".XXXXXX";
-  // The signal handler must know the name before the file exists, so mkostemp fills in the name that it reads.
+  // The signal handler must know the name before the file exists, so mkostemp() writes it into the handler's array.
   const bool is_short = temporary.size() < sizeof(pending_path);
   char* const name = is_short ? std::strcpy(pending_path, temporary.c_str()) : temporary.data();
   is_pending = is_short ? 1 : 0;
@@ -69,7 +70,7 @@ absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(const std::string
     return write_error(path);
   }
   if (is_short) temporary = pending_path;
-  // mkostemp gives the file to its owner alone; a new file is for whom the umask says.
+  // mkostemp() lets only the owner use the file. It gets the permissions that the umask allows to any new file.
   const mode_t mask = ::umask(0);
   ::umask(mask);
   ::fchmod(descriptor, 0666 & ~mask);

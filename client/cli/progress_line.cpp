@@ -9,7 +9,7 @@ namespace isofield {
 ProgressLine::ProgressLine(bool enabled) : enabled_(enabled && ::isatty(STDERR_FILENO)) {}
 
 ProgressLine::~ProgressLine() {
-  // To the line's start, and clear it.
+  // These codes move the cursor to the start of the line and clear it.
   if (enabled_) std::fputs("\r\x1b[K", stderr);
 }
 

@@ -5,7 +5,8 @@
 
 namespace isofield {
 
-// A line on the standard error that is written over and over; silent when that is no terminal. Gone when destroyed.
+// Shows how far some long work is, in one line on the standard error that each call overwrites. It prints nothing if
+// the standard error is not a terminal, and the destructor clears the line.
 class ProgressLine {
  public:
   explicit ProgressLine(bool enabled);

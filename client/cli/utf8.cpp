@@ -7,7 +7,7 @@
 namespace isofield {
 namespace {
 
-// The length in bytes of the UTF-8 character at the start of `text`; 0 where the bytes are not UTF-8.
+// Returns the length in bytes of the UTF-8 character at the start of `text`, or 0 if the bytes are not UTF-8.
 std::size_t character_length(absl::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
@@ -16,7 +16,7 @@ std::size_t character_length(absl::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xc0) != 0x80) return 0;
   }
-  // These are overlong forms, surrogates and codes beyond Unicode.
+  // This refuses overlong forms, surrogates and codes beyond Unicode.
   const unsigned first = length > 1 ? byte(1) : 0;
   if ((byte(0) == 0xe0 && first < 0xa0) || (byte(0) == 0xed && first > 0x9f) || (byte(0) == 0xf0 && first < 0x90) ||
       (byte(0) == 0xf4 && first > 0x8f)) {

@@ -23,7 +23,7 @@ absl::Status refuse(const std::string& address, const std::string& why) {
       absl::StrCat("server address \"", address, "\": ", why, "; expected HOST:PORT, [IPV6]:PORT or unix:PATH"));
 }
 
-// The error with which a connection ends, or 0 where there is one, or none within the time.
+// Tries to connect. Returns the error of the attempt, or 0 where it connects or where nothing is known within the time.
 int connection_error(const addrinfo& to) {
   constexpr int kMilliseconds = 500;
   const int socket = ::socket(to.ai_family, to.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, to.ai_protocol);
@@ -75,13 +75,13 @@ absl::StatusOr<std::string> grpc_target(const std::string& address) {
   const bool bracketed = host.front() == '[' && host.back() == ']' && host.size() > 2;
   for (const char c : host) {
     if (absl::ascii_isspace(c) || c == '/' || (c == ':' && !bracketed)) {
-      return refuse(address, absl::StrCat("\"", host, "\" is no host"));
+      return refuse(address, absl::StrCat("\"", host, "\" is not a host"));
     }
   }
   unsigned port = 0;
   if (port_text.empty() || !absl::ascii_isdigit(port_text.front()) || !absl::SimpleAtoi(port_text, &port) || port < 1 ||
       port > 65535) {
-    return refuse(address, absl::StrCat("\"", port_text, "\" is no port within [1, 65535]"));
+    return refuse(address, absl::StrCat("\"", port_text, "\" is not a port within [1, 65535]"));
   }
   return absl::StrCat("dns:///", address);
 }

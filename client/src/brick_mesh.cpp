@@ -14,7 +14,8 @@ namespace {
 using Place = BrickMesh::Place;
 
 constexpr std::uint32_t kLayerBricks = 8;
-// Of a corner: the vertex's number in its brick, and which of the brick's x, y, z are one less than the triangle's.
+// A corner holds the number of the vertex in its brick and, above these bits, three bits that are set where the x, y or
+// z of that brick is one less than that of the brick of the triangle.
 constexpr int kBelowShift = 24;
 constexpr std::uint32_t kVertexBits = (1u << kBelowShift) - 1, kBelowBits = 7;
 
@@ -22,7 +23,8 @@ std::string text(const Place& place) {
   return absl::StrCat("brick (", absl::StrJoin(place, ", "), ")");
 }
 
-// Whether the corner of a triangle of the brick at `place`, which has so many vertices, can name a vertex.
+// Checks a corner of a triangle of the brick at `place`, which has `vertices` vertices. INTERNAL: it cannot name a
+// vertex.
 absl::Status check_corner(std::uint32_t corner, const Place& place, std::uint32_t vertices) {
   const std::uint32_t below = corner >> kBelowShift, vertex = corner & kVertexBits;
   bool fits = below <= kBelowBits && (below != 0 || vertex < vertices);
@@ -46,7 +48,7 @@ void append(const std::vector<T>& more, std::vector<T>& all) {
 
 bool BrickMesh::InOrder::operator()(const Place& a, const Place& b) const {
   if (a[2] / kLayerBricks != b[2] / kLayerBricks) return a[2] < b[2];
-  // The highest bit that differs decides, among equals z's before y's before x's.
+  // The highest bit that differs decides. Where several axes differ in this bit, z counts before y, and y before x.
   int axis = 2;
   for (const int i : {1, 0}) {
     if (std::bit_width(a[i] ^ b[i]) > std::bit_width(a[axis] ^ b[axis])) axis = i;
@@ -134,7 +136,7 @@ absl::StatusOr<Mesh> BrickMesh::join() const {
     numbers.emplace(place, own);
     append(brick.positions, mesh.positions);
     append(brick.normals, mesh.normals);
-    // Bricks whose coordinates are less come before.
+    // Bricks with smaller coordinates come earlier in the order, so that their vertices are numbered already.
     std::array<Numbers, kBelowBits + 1> named{own};
     for (std::uint32_t below = 1; below <= kBelowBits; ++below) {
       const auto found = numbers.find({place[0] - (below & 1), place[1] - (below >> 1 & 1), place[2] - (below >> 2)});
@@ -144,15 +146,15 @@ absl::StatusOr<Mesh> BrickMesh::join() const {
       const Numbers& n = named[corner >> kBelowShift];
       if ((corner & kVertexBits) >= n.count) {
         return absl::InternalError(absl::StrCat("corner ", corner, " in ", text(place), " names vertex ",
-                                                corner & kVertexBits, " of a brick beside it that has ", n.count,
+                                                corner & kVertexBits, " of a neighbouring brick that has ", n.count,
                                                 ": it has not been sent, or the part that holds it is missing"));
       }
       mesh.triangles.push_back(n.first + (corner & kVertexBits));
     }
   }
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
-    return absl::InternalError(
-        absl::StrCat("there are normals of ", mesh.normals.size() / 3, " of ", mesh.vertex_count(), " vertices"));
+    return absl::InternalError(absl::StrCat(mesh.normals.size() / 3, " of ", mesh.vertex_count(),
+                                            " vertices have normals; expected all or none"));
   }
   mesh.summary.set_vertices(mesh.vertex_count());
   mesh.summary.set_triangles(mesh.triangle_count());

@@ -24,9 +24,9 @@ absl::StatusOr<Client> Client::connect(const std::string& address, const ClientO
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(kMaxAnswerBytes);
   arguments.SetMaxSendMessageSize(-1);  // the server states its own limit
-  // The daemon is a neighbour, not a web site: a proxy of the environment would only be in the way.
+  // The daemon is near, and a proxy that the environment states for web sites would not reach it.
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
-  // gRPC waits a second by default before it connects anew, longer than all our retries.
+  // gRPC waits by default for a second before it connects again, which is longer than all attempts here take.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, static_cast<int>(options.backoff.count()));
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, static_cast<int>(options.backoff.count()));
   const auto channel = grpc::CreateCustomChannel(*target, grpc::InsecureChannelCredentials(), arguments);

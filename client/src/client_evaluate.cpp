@@ -13,26 +13,27 @@
 namespace isofield {
 namespace {
 
-// Chunks sent and not yet answered. Enough to keep the server busy while a result is handled, few enough that memory
-// stays at some 30 MiB.
+// The most chunks that are sent and not yet answered. They are enough to keep the server busy while a result is
+// handled, and few enough that memory stays at some 30 MiB.
 constexpr std::size_t kWindow = 16;
 
 v1::Quantity quantity_of(bool gradient) {
   return gradient ? v1::VALUE_AND_GRADIENT : v1::VALUE;
 }
 
-// In shared memory a chunk has a slot: its points, then its results. Few, so that they stay in the processor's cache.
+// Each chunk that is not yet answered has a slot in shared memory for its points and then its results. There are few
+// slots, so that they stay in the cache of the processor.
 constexpr std::size_t kSlots = 4;
 constexpr std::size_t kSlotPoints = 3 * sizeof(float) * Client::kChunkPoints;
 constexpr std::size_t kSlotBytes = kSlotPoints + 4 * sizeof(float) * Client::kChunkPoints;
 
-// One streamed evaluation: a thread of its own writes chunks, the caller's thread reads results. The chunks between
-// the two wait in `in_flight_`; only that queue and the flags are shared.
+// One streamed evaluation: a thread of its own writes chunks, and the thread of the caller reads results. The chunks
+// between the two wait in `in_flight_`; the threads share only this queue and the flags.
 class StreamedEvaluation {
  public:
   using Stream = grpc::ClientReaderWriter<v1::EvaluateStreamRequest, v1::EvaluateResponse>;
 
-  // `memory`: kSlots slots, or null.
+  // `memory` has kSlots slots, or is null.
   StreamedEvaluation(v1::FieldService::Stub& stub, grpc::ClientContext& context, const SharedMemory* memory)
       : context_(context), memory_(memory), stream_(stub.EvaluateStream(&context)) {}
 
@@ -48,7 +49,7 @@ class StreamedEvaluation {
     changed_.notify_all();
     writer.join();
     const grpc::Status finished = stream_->Finish();
-    // Our own errors first: the server's is then only the echo of the cancellation.
+    // Errors of this side come first, since the error of the server is then only the result of the cancellation.
     if (!source_status_.ok()) return source_status_;
     if (!read_status.ok()) return read_status;
     if (!finished.ok()) return from_grpc(finished, address);
@@ -115,14 +116,14 @@ class StreamedEvaluation {
 
   absl::Status read_all(std::uint64_t columns, const Client::ResultSink& sink) {
     v1::EvaluateResponse response;
-    std::size_t number = 0;    // of the chunk that is being answered
+    std::size_t number = 0;    // index of the chunk that is being answered
     std::size_t answered = 0;  // points of this chunk that are answered already
     while (stream_->Read(&response)) {
       std::span<const float> xyz;
       {
         const std::lock_guard lock(mutex_);
         if (in_flight_.empty()) return absl::InternalError("the server answered more chunks than were sent");
-        xyz = in_flight_.front().xyz.subspan(3 * answered);  // the front stays where it is
+        xyz = in_flight_.front().xyz.subspan(3 * answered);  // pushing to the back does not move the front
       }
       std::span<const float> results;
       if (memory_) {
@@ -159,7 +160,7 @@ class StreamedEvaluation {
   std::condition_variable changed_;
   std::deque<Chunk> in_flight_;
   bool reader_done_ = false;
-  absl::Status source_status_;  // the writer's until it is joined
+  absl::Status source_status_;  // only the writer uses it until it is joined
 };
 
 }  // namespace
@@ -171,7 +172,7 @@ absl::Status Client::Impl::stream(const v1::SceneRef& scene, bool gradient, cons
   std::unique_ptr<SharedMemory> memory = take_shared_memory(kSlots * kSlotBytes);
   const absl::Status status =
       StreamedEvaluation(*fields, context, memory.get()).run(scene, gradient, source, sink, address);
-  // Of a stream that was broken off the server may still write results.
+  // The server may still write results of a stream that was broken off, so that its memory is not used again.
   if (memory && status.ok()) shared_memory.give(std::move(memory));
   return status;
 }

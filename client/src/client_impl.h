@@ -1,3 +1,4 @@
+// The private part of Client: the stubs of the gRPC services, and how requests are sent and tried again.
 #pragma once
 
 #include <grpcpp/channel.h>
@@ -23,12 +24,12 @@
 
 namespace isofield {
 
-// [n, 3] coordinates, the caller's own or `kept`.
+// The coordinates of a chunk of points, shape [n, 3]. `xyz` is a view into an array of the caller, or into `kept`.
 struct Chunk {
   std::vector<float> kept;
   std::span<const float> xyz;
 };
-// The next one; empty: there are no more.
+// A function that fills the next chunk. It leaves the chunk empty where there are no more points.
 using ChunkSource = std::function<absl::Status(Chunk& chunk)>;
 
 // The largest message, in bytes, that the channel receives. Requests state it to the server as max_answer_bytes.
@@ -45,21 +46,25 @@ struct Client::Impl {
   std::unique_ptr<v1::InfoService::Stub> infos;
   SharedMemoryPool shared_memory;
 
-  // Hands a batch's results to `sink` in their order; begins anew, with `restart`, where it is sent once more.
+  // Evaluates a batch, as one message or as a stream, and hands the results to `sink` in their order. Calls `restart`
+  // first, and again before a stream that is sent once more, since the results before it are then void.
   absl::Status evaluate(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient,
                         const std::function<void()>& restart, const ResultSink& sink);
+  // Evaluates a batch that travels in one message.
   absl::Status evaluate_message(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient,
                                 const ResultSink& sink);
-  // Any number of points, in chunks.
+  // Evaluates any number of points as one stream of chunks, and tries this once.
   absl::Status stream(const v1::SceneRef& scene, bool gradient, const ChunkSource& source, const ResultSink& sink);
-  // For one evaluation; null: it takes the wire.
+  // Returns memory for one evaluation. Where it returns null, the evaluation sends its arrays through the connection
+  // instead.
   std::unique_ptr<SharedMemory> take_shared_memory(std::size_t bytes);
 
   static void set_timeout(grpc::ClientContext& context, std::optional<std::chrono::milliseconds> timeout) {
     if (timeout) context.set_deadline(std::chrono::system_clock::now() + *timeout);
   }
 
-  // `request`: absl::Status(), one attempt at something that only reads; tried again while UNAVAILABLE.
+  // Tries a request that only reads, and tries it again while the server is UNAVAILABLE. `request` makes one attempt
+  // and returns its absl::Status.
   template <typename Request>
   absl::Status retry(const Request& request) const {
     auto pause = options.backoff;
@@ -71,8 +76,8 @@ struct Client::Impl {
     }
   }
 
-  // `method`: grpc::Status(grpc::ClientContext*), one message each way. Tried again where the server has refused it
-  // unseen and says when to come back.
+  // Calls a method that has one answer. `method` takes a grpc::ClientContext* and returns a grpc::Status. It is called
+  // again where the server has refused the request before any work and says when to come back.
   template <typename Method>
   absl::Status call(const Method& method) const {
     for (int attempt = 1;; ++attempt) {

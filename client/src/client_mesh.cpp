@@ -24,7 +24,7 @@ absl::Status append_creases(const v1::MeshCreases& part, Mesh::Creases& creases)
   return status;
 }
 
-// INTERNAL: the wedges do not fit the mesh.
+// Checks the creases. INTERNAL: the wedges do not fit the mesh.
 absl::Status check_creases(const Mesh& mesh) {
   const auto& [vertices, normals, corners] = mesh.creases;
   const std::size_t wedges = vertices.size();
@@ -37,7 +37,7 @@ absl::Status check_creases(const Mesh& mesh) {
   return fits ? absl::OkStatus() : absl::InternalError("the server sent creases that do not fit the mesh");
 }
 
-// INTERNAL: the arrays do not hold what the summary announced.
+// Checks a whole mesh. INTERNAL: the arrays do not hold what the summary announced.
 absl::Status check(const Mesh& mesh) {
   const auto& summary = mesh.summary;
   const bool normals_fit = mesh.normals.empty() || mesh.normals.size() == mesh.positions.size();
@@ -50,7 +50,7 @@ absl::Status check(const Mesh& mesh) {
   const auto largest = std::max_element(mesh.triangles.begin(), mesh.triangles.end());
   if (largest != mesh.triangles.end() && *largest >= mesh.vertex_count()) {
     return absl::InternalError(
-        absl::StrCat("the server sent a triangle of vertex ", *largest, " of ", mesh.vertex_count()));
+        absl::StrCat("the server sent a triangle that names vertex ", *largest, " of ", mesh.vertex_count()));
   }
   return check_creases(mesh);
 }
@@ -65,7 +65,7 @@ absl::Status check(const MeshedBricks& mesh) {
                                           " and ", bricks.triangle_count()));
 }
 
-// Reads a stream of progress, a summary and messages of another kind, which go to `take`, to its end.
+// Reads a stream to its end. It has messages of progress, a summary and messages of another kind, which go to `take`.
 template <class Response, class Take>
 absl::Status read_mesh(grpc::ClientContext& context, grpc::ClientReader<Response>& stream,
                        const Client::Progress& progress, v1::MeshSummary& summary, const std::string& address,

@@ -65,7 +65,7 @@ absl::StatusOr<OperatorValues> Client::evaluate_operator(v1::EvaluateOperatorReq
   const std::size_t rows = arguments.size() / width;
   request.set_max_answer_bytes(kMaxAnswerBytes);
   OperatorValues all;
-  // Without rows too one message goes: the server checks the operator and the columns.
+  // One message goes even without rows, since the server checks the operator and the columns.
   for (std::size_t first = 0; first == 0 || first < rows; first += kChunkPoints) {
     const std::size_t count = std::min(kChunkPoints, rows - first);
     set_floats(arguments.subspan(first * width, count * width), width, *request.mutable_arguments());

@@ -15,8 +15,8 @@ absl::Status check_rows(const char* what, std::span<const float> numbers) {
       absl::StrCat(what, ": ", numbers.size(), " coordinates; expected a multiple of 3 (x, y, z of each)"));
 }
 
-// Calls `ask` for parts of at most kChunkPoints rows: first row, rows. Once at least, so that the server sees the rest
-// of the request.
+// Calls `ask` with the first row and the number of rows of each part; a part has at most kChunkPoints rows. Calls it
+// once at least, so that the server sees the rest of the request.
 template <class Ask>
 absl::Status in_parts(std::size_t rows, const Ask& ask) {
   for (std::size_t first = 0;; first += Client::kChunkPoints) {
@@ -34,7 +34,7 @@ absl::Status check_answered(std::size_t answered, std::size_t expected) {
   return absl::InternalError(absl::StrCat("the server answered ", answered, " of ", expected, " rows"));
 }
 
-// Appends an answer's rows to those before.
+// Appends the rows of an answer to `hits`. `places` has the index of each name in hits.names.
 absl::Status append_hits(const v1::CastRaysResponse& response, std::map<std::string, std::uint32_t>& places,
                          RayHits& hits) {
   absl::Status status;
@@ -45,7 +45,7 @@ absl::Status append_hits(const v1::CastRaysResponse& response, std::map<std::str
   std::vector<std::uint32_t> nodes;
   status.Update(append_indices(response.nodes(), 1, nodes));
   if (!status.ok()) return status;
-  // Each answer lists the names that it needs.
+  // Each answer lists the names that it needs, and numbers them by itself.
   std::vector<std::uint32_t> joined;
   for (const std::string& name : response.names()) {
     const auto [it, is_new] = places.emplace(name, static_cast<std::uint32_t>(hits.names.size()));
@@ -79,8 +79,8 @@ absl::StatusOr<RayHits> Client::cast_rays(v1::CastRaysRequest request, std::span
                                           std::span<const float> directions) {
   if (auto status = check_rows("origins", origins); !status.ok()) return status;
   if (origins.size() != directions.size()) {
-    return absl::InvalidArgumentError(absl::StrCat("directions: ", directions.size(),
-                                                   " coordinates; expected as many as the origins', ", origins.size()));
+    return absl::InvalidArgumentError(absl::StrCat("directions: ", directions.size(), " coordinates; expected ",
+                                                   origins.size(), ", as many as the origins have"));
   }
   request.set_max_answer_bytes(kMaxAnswerBytes);
   RayHits hits;

@@ -26,7 +26,7 @@ absl::Status from_grpc(const grpc::Status& status, const std::string& address) {
         return absl::UnavailableError(absl::StrCat("the connection to isofieldd at ", address, " was lost (", detail,
                                                    "); see the daemon's log, then try again"));
       }
-      // gRPC does not say of an address of TCP that it refuses connections.
+      // gRPC does not say that connections to a TCP address are refused.
       if (absl::StrContains(detail, "Connection refused") || absl::StrContains(detail, "No such file or directory") ||
           (absl::StrContains(detail, "failed to connect") && is_refused(address))) {
         return absl::UnavailableError(absl::StrCat("nothing listens at ", address, "; start isofieldd there"));
@@ -42,7 +42,7 @@ absl::Status from_grpc(const grpc::Status& status, const std::string& address) {
     case absl::StatusCode::kResourceExhausted:
       if (absl::StrContains(detail, "message larger than max")) {
         return absl::ResourceExhaustedError(
-            absl::StrCat("the request does not fit one message (", detail, "); isofieldd's limits: isofield info"));
+            absl::StrCat("the request does not fit one message (", detail, "); \"isofield info\" shows the limits"));
       }
       break;
     default:

@@ -1,3 +1,4 @@
+// Shortens the texts of users for error messages.
 #pragma once
 
 #include <absl/strings/string_view.h>
@@ -6,7 +7,7 @@
 
 namespace isofield {
 
-// The beginning of a user's text, fit for an error message: at most 80 characters, all of them printable ASCII.
+// Returns the beginning of a text of a user: at most 80 characters, all of them printable ASCII.
 std::string excerpt(absl::string_view text);
 
 }  // namespace isofield

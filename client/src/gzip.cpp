@@ -55,10 +55,10 @@ bool is_gzip(absl::string_view data) {
 absl::StatusOr<std::string> gunzip(absl::string_view data, std::size_t limit) {
   std::string unpacked;
   while (!data.empty()) {
-    // Zeros after the last member are padding, as tapes and block devices add it.
+    // Zeros after the last member are padding, which tapes and block devices add.
     if (!is_gzip(data)) {
       if (data.find_first_not_of('\0') == data.npos) break;
-      return damaged("something else follows it");
+      return damaged("other data follows it");
     }
     if (auto status = unpack_member(data, limit, unpacked); !status.ok()) return status;
   }

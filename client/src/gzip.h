@@ -1,3 +1,4 @@
+// Unpacks gzip files.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -11,7 +12,7 @@ namespace isofield {
 // The most bytes that a packed file may hold, so that a small file cannot fill the memory.
 inline constexpr std::size_t kMostUnpackedBytes = std::size_t{4} << 30;
 
-// True where data begins with the two bytes that mark a gzip file.
+// Returns true where the data begins with the two bytes that mark a gzip file.
 bool is_gzip(absl::string_view data);
 
 // Unpacks all members of a gzip file, one after the other. INVALID_ARGUMENT: it is damaged or ends early.

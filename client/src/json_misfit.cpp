@@ -19,10 +19,11 @@ using google::protobuf::EnumDescriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::OneofDescriptor;
 
-// The deepest nesting that is read. No message of the contract needs so much, and the stack allows it.
+// The deepest nesting that is read. No message of the .proto files needs so much, and the stack allows it.
 constexpr int kMostDepth = 100;
 
-// The field of this name, which may be the one of the .proto file or the one of JSON; nullptr where there is none.
+// Returns the field of this name, which may be the one of the .proto file or the one of JSON, or nullptr where there is
+// none.
 const FieldDescriptor* field_of(const Descriptor& type, const std::string& name) {
   if (const FieldDescriptor* field = type.FindFieldByName(name)) return field;
   for (int i = 0; i < type.field_count(); ++i) {
@@ -45,6 +46,7 @@ std::vector<std::string> enum_names(const EnumDescriptor& type) {
   return names;
 }
 
+// Reads a text along the fields of a message type, up to the first misfit.
 class Walker {
  public:
   explicit Walker(absl::string_view text) : text_(text) {}
@@ -76,7 +78,7 @@ class Walker {
     const std::string found = rest.empty() ? "the text ends" : absl::StrCat("\"", rest.substr(0, length), "\"");
     return fail(JsonMisfit::Kind::kSyntax, at_, absl::StrCat(found, " where ", expected, " was expected"));
   }
-  // `path` is what `text` is about: "nodes[2].sphere".
+  // `path` is the place that `text` is about, such as "nodes[2].sphere".
   bool meaning(std::size_t at, const std::string& path, absl::string_view text) {
     return fail(JsonMisfit::Kind::kMeaning, at, absl::StrCat(with_name(path), text));
   }
@@ -153,7 +155,7 @@ class Walker {
     const std::size_t start = (skip_space(), at_);
     if (!next_is('{')) {
       if (at_ >= text_.size() || !absl::StrContains("\"[-0123456789tf", text_.substr(at_, 1))) return syntax("\"{\"");
-      return meaning(start, path.empty() ? "the text" : path, " is no object; expected fields between { and }");
+      return meaning(start, path.empty() ? "the text" : path, " is not an object; expected fields between { and }");
     }
     if (depth == 1) node_at_ = start;
     std::map<const FieldDescriptor*, std::size_t> stated;
@@ -166,7 +168,7 @@ class Walker {
       const FieldDescriptor* field = field_of(type, key);
       if (field == nullptr) return unknown_field(type, key, key_at, path);
       const std::string in = path.empty() ? key : absl::StrCat(path, ".", key);
-      if (!stated.emplace(field, key_at).second) return meaning(key_at, in, " stands there twice; expected it once");
+      if (!stated.emplace(field, key_at).second) return meaning(key_at, in, " is stated twice; expected it once");
       const OneofDescriptor* oneof = next_is('n') ? nullptr : field->containing_oneof();
       if (oneof != nullptr && !chosen.emplace(oneof, field).second) {
         return meaning(key_at, path.empty() ? "the text" : path,
@@ -226,7 +228,7 @@ class Walker {
     const std::vector<std::string> names = field_names(type);
     return meaning(at, path.empty() ? "the " + absl::AsciiStrToLower(type.name()) : path,
                    absl::StrCat(" has no field \"", key.substr(0, 60), "\"", did_you_mean(key, names), "; ",
-                                names.empty() ? "it has none" : "expected one of " + absl::StrJoin(names, ", ")));
+                                names.empty() ? "it has no fields" : "expected one of " + absl::StrJoin(names, ", ")));
   }
 
   // Adds the node's name to its place, if it has one: "nodes[2] 'arm'.sphere". The whole node is read for this, since
@@ -247,7 +249,7 @@ class Walker {
 
   const absl::string_view text_;
   std::size_t at_ = 0;
-  std::size_t node_at_ = 0;  // where the object begins that is an item of a list of the outermost message
+  std::size_t node_at_ = 0;  // where the last item of a list of the outermost message begins
   JsonMisfit misfit_;
 };
 

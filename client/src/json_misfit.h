@@ -1,3 +1,4 @@
+// Finds out why a JSON text does not fit a protobuf message.
 #pragma once
 
 #include <absl/strings/string_view.h>
@@ -7,11 +8,11 @@
 
 namespace isofield {
 
-// The first place at which a JSON text does not fit a message. Its text says more than protobuf's own errors do.
+// The first place at which a JSON text does not fit a message. `text` says more than the errors of protobuf do.
 struct JsonMisfit {
   enum class Kind {
     kNone,
-    // The text is no JSON, or JSON of a looser kind, which protobuf may accept all the same.
+    // The text is not JSON, or it is JSON of a looser kind, which protobuf may accept all the same.
     kSyntax,
     // A field does not exist or is stated twice, two fields of one oneof are stated, or a value has the wrong type.
     kMeaning,
@@ -21,7 +22,7 @@ struct JsonMisfit {
   std::string text;   // such as "nodes[2] 'arm'.sphere has no field \"radus\"; did you mean ..."
 };
 
-// Checks the names of fields and the types of their values. Ranges of numbers are left to protobuf.
+// Checks the names of fields and the types of their values. The ranges of numbers are left to protobuf.
 JsonMisfit find_misfit(absl::string_view text, const google::protobuf::Descriptor& type);
 
 }  // namespace isofield

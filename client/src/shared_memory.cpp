@@ -39,7 +39,7 @@ int connect_to(const std::string& path) {
   return -1;
 }
 
-// One packet with a descriptor.
+// Sends one packet: the version of the protocol, with a descriptor.
 bool send_descriptor(int socket, int descriptor) {
   char version = kVersion;
   iovec data{&version, 1};

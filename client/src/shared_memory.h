@@ -1,3 +1,5 @@
+// Memory that the client shares with a daemon on the same machine, so that arrays need not travel through the
+// connection. shared_memory.proto describes the protocol.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -10,20 +12,21 @@
 
 namespace isofield {
 
-// Memory shared with a daemon on this machine (shared_memory.proto) for as long as this lives. Movable through a
-// pointer alone; one thread at a time.
+// One region of memory. The object owns it and the socket that keeps it shared, and frees both when it is destroyed. It
+// cannot be moved or copied. Only one thread at a time may use it.
 class SharedMemory {
  public:
-  // `socket_path`: GetInfoResponse.shared_memory_socket. Errors: the daemon's, or what the system says.
+  // Shares a new region of `bytes` bytes. `socket_path` is GetInfoResponse.shared_memory_socket. Errors are those of
+  // the daemon, or UNAVAILABLE with the words of the operating system.
   static absl::StatusOr<std::unique_ptr<SharedMemory>> open(const std::string& socket_path, std::size_t bytes);
   ~SharedMemory();
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
 
-  // Its name in requests.
+  // Returns the name of the region in requests.
   const std::string& region() const { return region_; }
   std::byte* data() const { return data_; }
-  // False: the daemon is gone, and one that took its place does not know the region.
+  // Returns false where the daemon is gone. A daemon that took its place does not know the region.
   bool is_alive() const;
 
  private:
@@ -35,11 +38,12 @@ class SharedMemory {
   std::string region_;
 };
 
-// What is kept for the next evaluation. Any number of threads.
+// Keeps a few regions for later evaluations. Any number of threads may use it at the same time.
 class SharedMemoryPool {
  public:
-  // Null: there is none that a daemon knows.
+  // Takes a region out of the pool. Returns null where the pool has none that a daemon knows.
   std::unique_ptr<SharedMemory> take();
+  // Puts a region back, or frees it where the pool is full.
   void give(std::unique_ptr<SharedMemory> memory);
 
  private:

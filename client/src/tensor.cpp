@@ -28,7 +28,7 @@ absl::StatusOr<std::span<const T>> numbers_of(const v1::Tensor& tensor, v1::Tens
                                             absl::StrJoin(tensor.shape(), ", "), "], ", data.size(),
                                             " bytes; expected dtype ", dtype, " and ", columns, " columns"));
   }
-  // Of a string's bytes, which lie as numbers may, on the heap and off it.
+  // The bytes of a string are aligned as these numbers need it, on the heap and within the string object.
   return std::span(reinterpret_cast<const T*>(data.data()), data.size() / sizeof(T));
 }
 

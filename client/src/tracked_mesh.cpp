@@ -16,7 +16,7 @@ struct TrackedMesh::Impl {
   v1::MeshSummary summary;
   MeshChanges changes;
   bool is_finished = false;
-  absl::Status status;  // what has ended the stream
+  absl::Status status;  // the error that has ended the stream
 
   ~Impl() {
     if (stream && !is_finished) end();
@@ -24,7 +24,7 @@ struct TrackedMesh::Impl {
 
   absl::StatusOr<v1::MeshSummary> ask(const v1::TrackMeshRequest& request) {
     if (!status.ok()) return status;
-    // Where it cannot be written, reading says why.
+    // If the request cannot be written, reading says why.
     stream->Write(request);
     status = receive();
     if (!status.ok()) {
@@ -35,7 +35,7 @@ struct TrackedMesh::Impl {
   }
 
  private:
-  // One answer.
+  // Reads one answer: one or more updates.
   absl::Status receive() {
     changes = {};
     v1::TrackMeshResponse response;

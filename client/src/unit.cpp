@@ -14,7 +14,7 @@ namespace {
 
 struct NamedUnit {
   const char* symbol;
-  const char* stem;  // of the long form, which may end in "s"
+  const char* stem;  // the long form, which may also end in "s"
   double metres;
 };
 constexpr NamedUnit kUnits[] = {
@@ -42,7 +42,7 @@ std::optional<double> unit_in_metres(const std::string& unit) {
   absl::string_view text = absl::StripAsciiWhitespace(unit);
   std::size_t digits = 0;
   while (digits < text.size() && (absl::ascii_isdigit(text[digits]) || text[digits] == '.')) ++digits;
-  // "1e-3 m": an exponent is part of the number, but the "e" of no unit begins one.
+  // An exponent, as in "1e-3 m", is part of the number. An "e" without digits after it is not.
   if (digits > 0 && digits + 1 < text.size() && (text[digits] == 'e' || text[digits] == 'E')) {
     std::size_t end = digits + 1;
     if (text[end] == '-' || text[end] == '+') ++end;

@@ -1,4 +1,5 @@
-// Reads numbers of a message with their limits, and words refusals: path.field = value: expected what.
+// Reads the numbers of a message, checks them against their limits, and words the refusals in the form
+// `path.field = value: expected ...`.
 #pragma once
 
 #include <absl/status/status.h>
@@ -14,12 +15,13 @@
 
 namespace isofield::base {
 
-// Keeps the first refusal. What is in order costs no text: that was a third of the time that a large scene is read in.
+// Collects the first refusal (INVALID_ARGUMENT) while fields are read one by one; the caller asks for status() at the
+// end. A field that is in order builds no text, since texts would take much of the time in which a large scene is read.
 class FieldReader {
  public:
   using Numbers = google::protobuf::RepeatedField<double>;
 
-  // `path` names what is read in errors, and outlives the reader.
+  // Errors name the message by `path`, which must outlive the reader.
   explicit FieldReader(const std::string& path) : path_(path) {}
 
   absl::Status status() const { return status_; }
@@ -29,7 +31,7 @@ class FieldReader {
     status_ = absl::InvalidArgumentError(absl::StrCat(path_, ".", field, " = ", value, ": expected ", expected));
   }
 
-  // Refuses a field that is left out, where the message can tell that it is.
+  // Refuses a field that is left out. It is for fields of which the message can tell that they are left out.
   void miss(absl::string_view field, absl::string_view expected) {
     if (!status_.ok()) return;
     status_ = absl::InvalidArgumentError(absl::StrCat(path_, ".", field, " is missing: expected ", expected));
@@ -46,16 +48,18 @@ class FieldReader {
     count == 0 ? miss(field, expected) : refuse(field, absl::StrCat("[", count, " numbers]"), expected);
   }
 
+  // Returns the number, and refuses it unless it lies within [least, most]. The functions below do likewise.
   double number(absl::string_view field, double value, double least, double most, absl::string_view expected) {
     if (!(value >= least && value <= most)) refuse(field, absl::StrCat(value), expected);
     return value;
   }
-  // Checks a number that has no default, where the message cannot tell whether it is stated.
+  // Checks a number without a default. The message cannot tell whether it is stated.
   double required_number(absl::string_view field, double value, double least, double most, absl::string_view expected) {
     if (!(value >= least && value <= most)) refuse_number(field, value, expected);
     return value;
   }
-  // `component` is appended to the field's name: ".x".
+  // Checks a length > 0, within [kMinLength, kMaxCoordinate]. `component`, such as ".x", is appended to the field's
+  // name.
   double positive(absl::string_view field, double value, absl::string_view component = "") {
     if (!(value >= kMinLength && value <= kMaxCoordinate)) {
       const std::string expected = absl::StrCat("a length > 0, within [", kMinLength, ", ", kMaxCoordinate, "]");
@@ -75,13 +79,13 @@ class FieldReader {
   glm::dvec3 point(absl::string_view field, const Numbers& numbers, const glm::dvec3& otherwise = {}) {
     return has_size(field, numbers, 3, true) ? stated_point(field, numbers) : otherwise;
   }
-  // A point without a default.
+  // Reads a point that has no default.
   glm::dvec3 stated_point(absl::string_view field, const Numbers& numbers) {
     if (!has_size(field, numbers, 3, false)) return {};
     return {coordinate(field, numbers[0], ".x"), coordinate(field, numbers[1], ".y"),
             coordinate(field, numbers[2], ".z")};
   }
-  // A direction of any length but 0.
+  // Reads a direction, which may have any length but 0.
   glm::dvec3 direction(absl::string_view field, const Numbers& numbers, const glm::dvec3& otherwise) {
     const glm::dvec3 v = point(field, numbers, otherwise);
     if (!(length(v) > 0)) refuse(field, "(0, 0, 0)", "a direction of a length that is not 0");
@@ -91,7 +95,7 @@ class FieldReader {
     if (!has_size(field, numbers, 3, false)) return {1, 1, 1};
     return {positive(field, numbers[0], ".x"), positive(field, numbers[1], ".y"), positive(field, numbers[2], ".z")};
   }
-  // False when the default is meant, or the count is refused.
+  // Returns false when the list is empty and the default is meant, or when the number of its elements is refused.
   bool has_size(absl::string_view field, const Numbers& numbers, int size, bool may_be_empty) {
     if (numbers.empty() && may_be_empty) return false;
     if (numbers.size() == size) return true;

@@ -1,4 +1,4 @@
-// Four float32 numbers, the unit in which parameters lie in buffers of the device (GLSL's vec4).
+// Float4 is four float32 numbers, like GLSL's vec4. Parameters lie in the device's buffers in this unit.
 #pragma once
 
 #include <array>

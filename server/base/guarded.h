@@ -1,4 +1,5 @@
-// Where exceptions end: of the standard library for the most part, which has run out of memory.
+// Turns exceptions into statuses. isofield reports its own errors as statuses; most exceptions come from the standard
+// library when memory runs out.
 #pragma once
 
 #include <absl/status/status.h>

@@ -1,4 +1,5 @@
-// Intervals of numbers, with room for what float32 makes of numbers computed in double precision.
+// Intervals of numbers. They are computed in double precision and padded, so that they also hold what the device
+// computes in float32.
 #pragma once
 
 #include <algorithm>

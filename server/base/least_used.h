@@ -1,9 +1,10 @@
-// Which entry of a cache goes first.
+// Finds the entry that a full cache evicts first: the least recently used one.
 #pragma once
 
 namespace isofield::base {
 
-// The entry of a map with the least `last_used` among those that may go, or entries.end() where none may.
+// Returns the entry of a map that has the least `last_used` among those for which may_go(value) is true, or
+// entries.end() if there is none.
 template <class Map, class MayGo>
 typename Map::iterator least_used(Map& entries, const MayGo& may_go) {
   auto least = entries.end();

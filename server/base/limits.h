@@ -1,4 +1,4 @@
-// The limits of lengths and coordinates. Beyond them float32 squares would be infinite, or vanish.
+// The limits of lengths and coordinates, in model units. Beyond them squares in float32 would be infinite or vanish.
 #pragma once
 
 namespace isofield::base {

@@ -8,7 +8,7 @@
 namespace isofield::base {
 namespace {
 
-// The distance of Damerau and Levenshtein in which no letter is edited twice ("optimal string alignment").
+// The Damerau-Levenshtein distance in which no letter is edited twice ("optimal string alignment").
 std::size_t edit_distance(absl::string_view a, absl::string_view b) {
   std::vector<std::size_t> before, row(b.size() + 1), next(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;

@@ -13,7 +13,8 @@ struct Character {
   bool is_plain = false;  // valid UTF-8 and no control character
 };
 
-// The character that `text`, which is not empty, begins with (RFC 3629).
+// Reads the first character of `text`, which must not be empty (RFC 3629). A byte that begins no valid UTF-8 character
+// counts as one character that is not plain.
 Character first_of(absl::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned lead = byte(0);
@@ -44,7 +45,7 @@ std::string escape(absl::string_view bytes) {
 }  // namespace
 
 std::string printable(absl::string_view text, std::size_t most_characters, std::size_t most_bytes) {
-  // Names of nodes are nearly always plain and short, and a scene has up to a million of them.
+  // This is a short cut: names of nodes are nearly always plain and short, and a scene has up to a million of them.
   const auto is_ascii = [](unsigned char c) { return c >= 0x20 && c < 0x7f; };
   if (text.size() <= std::min(most_characters, most_bytes) && std::all_of(text.begin(), text.end(), is_ascii)) {
     return std::string(text);

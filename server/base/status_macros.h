@@ -1,4 +1,5 @@
-// Passing statuses on.
+// Macros that pass an error status on to the caller. ISOFIELD_RETURN_IF_ERROR takes an absl::Status;
+// ISOFIELD_ASSIGN_OR_RETURN takes a StatusOr, and declares or assigns its value if there is one.
 #pragma once
 
 #include <absl/status/statusor.h>

@@ -1,5 +1,5 @@
-// Formulas are templates over the number: double, or one that carries derivatives along (reference/), which has a
-// value_of of its own.
+// value_of(x) is the plain number in x. Formulas are templates over their number type: double, or a type that carries
+// derivatives along (reference/), which has a value_of() of its own.
 #pragma once
 
 namespace isofield::base {

@@ -45,7 +45,8 @@ void Workers::help() {
     take_part(task);
     lock.lock();
     tasks_.remove(&task);
-    // The one who asked may be gone with the task as soon as the lock is.
+    // The task belongs to the thread that called for_each(). Once the count is 0 and the lock is released, that thread
+    // may return and destroy it.
     if (--task.helpers == 0) left_.notify_all();
   }
 }

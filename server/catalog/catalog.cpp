@@ -17,8 +17,8 @@ namespace {
 using google::protobuf::util::ParseDelimitedFromZeroCopyStream;
 using google::protobuf::util::SerializeDelimitedToZeroCopyStream;
 
-// A scene with its operators. Its serialized form is a Scene, then for each operator its name as a StringValue and an
-// Operator; each message has its length before it.
+// A scene with its operators, as the store keeps it. The serialized form is a Scene, followed by a StringValue (the
+// name) and an Operator for each operator; each message has its length before it.
 class SceneValue final : public Value {
  public:
   SceneValue(v1::Scene scene, std::shared_ptr<const SceneOperators> operators)

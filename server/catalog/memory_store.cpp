@@ -8,7 +8,9 @@ absl::StatusOr<Store::Put> MemoryStore::put(Kind kind, const std::string& name, 
                                             const Condition& condition, const Quota& quota) {
   using Outcome = Put::Outcome;
   const std::uint64_t value_bytes = value->bytes();
-  Record replaced;  // declared before the lock: its value may be the last one of its kind, and is released after it
+  // It is declared before the lock, so that its value, which nobody else may hold, is destroyed after the lock is
+  // released.
+  Record replaced;
   const base::MutexLock lock(mutex_);
   Shelf& there = shelf(kind);
   const auto it = there.records.find(name);

@@ -1,4 +1,4 @@
-// A store that ends with the process.
+// The store that the daemon uses. It keeps everything in memory, so its content is lost when the process ends.
 #pragma once
 
 #include <absl/container/btree_map.h>
@@ -10,7 +10,7 @@
 
 namespace isofield::catalog {
 
-// Keeps the values themselves, and never serializes them.
+// Keeps the values as they are and never serializes them. All functions hold one lock for a short time.
 class MemoryStore final : public Store {
  public:
   absl::StatusOr<Put> put(Kind kind, const std::string& name, std::shared_ptr<const Value> value,
@@ -25,7 +25,7 @@ class MemoryStore final : public Store {
   struct Shelf {
     absl::btree_map<std::string, Record> records;
     std::uint64_t last_version = 0;
-    std::uint64_t bytes = 0;  // of all values
+    std::uint64_t bytes = 0;  // the sum of Value::bytes() of all values
   };
   Shelf& shelf(Kind kind) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return shelves_[static_cast<std::size_t>(kind)]; }
   const Shelf& shelf(Kind kind) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {

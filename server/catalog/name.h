@@ -1,4 +1,4 @@
-// Names of what a catalog holds.
+// Checks the names under which clients put scenes and operators into a catalog.
 #pragma once
 
 #include <absl/status/status.h>
@@ -7,7 +7,7 @@
 
 namespace isofield::catalog {
 
-// INVALID_ARGUMENT: not 1 to 128 characters of A-Z a-z 0-9 _ - . /
+// INVALID_ARGUMENT: the name does not consist of 1 to 128 characters of A-Z a-z 0-9 _ - . /
 absl::Status check_name(const std::string& name);
 
 }  // namespace isofield::catalog

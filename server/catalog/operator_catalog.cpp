@@ -15,7 +15,7 @@
 namespace isofield::catalog {
 namespace {
 
-// Its serialized form is an Operator.
+// A custom operator as the store keeps it. The serialized form is an Operator message.
 class OperatorValue final : public Value {
  public:
   OperatorValue(v1::Operator message, std::shared_ptr<const operators::Operator> op)

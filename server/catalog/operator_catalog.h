@@ -1,4 +1,5 @@
-// Custom operators by name and version.
+// The catalog of custom operators: it stores, finds, lists and removes them by name, and gives each change a new
+// version.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -16,7 +17,7 @@
 
 namespace isofield::catalog {
 
-// An operator as it was put, and as it was read; immutable.
+// One version of a custom operator: the message that was put, and what it was read into. It is immutable.
 struct OperatorEntry {
   std::string name;
   std::uint64_t version = 0;
@@ -24,30 +25,32 @@ struct OperatorEntry {
   std::shared_ptr<const operators::Operator> op;
 };
 
-// Of all custom operators: samples are what makes them large.
+// The most bytes that all custom operators may take together. Sampled operators are the large ones.
 inline constexpr std::uint64_t kMaxOperatorBytes = std::uint64_t{1} << 30;
 
-// Thread-safe.
+// Keeps custom operators in a Store and words the errors that clients see. Thread-safe.
 class OperatorCatalog {
  public:
   // `store` must outlive this.
   OperatorCatalog(Store& store, std::uint64_t max_operators);
 
-  // `op` is what `message` was read into. INVALID_ARGUMENT: the name. RESOURCE_EXHAUSTED: full.
+  // Stores an operator under a new version. `op` is what `message` was read into. INVALID_ARGUMENT: the name is not
+  // allowed, or is that of a built-in operator. RESOURCE_EXHAUSTED: the catalog is full.
   absl::StatusOr<OperatorEntry> put(const std::string& name, v1::Operator message,
                                     std::shared_ptr<const operators::Operator> op);
-  // NOT_FOUND, with the names that there are.
+  // NOT_FOUND: there is no such custom operator; the message lists the names that there are.
   absl::StatusOr<OperatorEntry> get(const std::string& name) const;
-  // At most `most` operators, in the order of their names, from the first name after `after` on.
+  // Returns at most `most` operators, in the order of their names, from the first name after `after` on.
   absl::StatusOr<std::vector<OperatorEntry>> list(const std::string& after, std::size_t most) const;
   absl::Status remove(const std::string& name);
+  // Returns the number of custom operators.
   absl::StatusOr<std::uint64_t> size() const;
 
-  // The operators that a scene's custom nodes name, as they are now. INVALID_ARGUMENT: there is no such operator; names
-  // the node and the operators that there are.
+  // Returns the operators that the custom nodes of a scene name, in their present versions. INVALID_ARGUMENT: a node
+  // names an operator that does not exist; the message states the node and the operators that there are.
   absl::StatusOr<std::shared_ptr<const SceneOperators>> operators_of(const v1::Scene& scene) const;
 
-  // Reads operators for a store that keeps them as bytes.
+  // Reads an operator from its serialized form, for a store that keeps bytes. DATA_LOSS: the bytes are broken.
   static absl::StatusOr<std::shared_ptr<const Value>> parse(const std::string& serialized);
 
  private:

@@ -1,4 +1,4 @@
-// Listing a catalog without a limit, a page at a time.
+// Walks through all entries of a catalog, however many there are, by asking for a page of them at a time.
 #pragma once
 
 #include <absl/status/status.h>
@@ -10,8 +10,9 @@
 
 namespace isofield::catalog {
 
-// Calls add(entry), which returns StatusOr<bool>, for the entries of a catalogue in the order of their names, from the
-// first name after `after` on, until it returns false. Entries that are put or removed meanwhile may or may not be met.
+// Calls add(entry), which returns StatusOr<bool>, for the entries of a catalog in the order of their names, from the
+// first name after `after` on, until add() returns false or an error. The walk may or may not meet entries that are put
+// or removed during it.
 template <class SomeCatalog, class Add>
 absl::Status for_each_after(const SomeCatalog& catalog, std::string after, const Add& add) {
   constexpr std::size_t kPage = 256;

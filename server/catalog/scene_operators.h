@@ -1,4 +1,4 @@
-// The custom operators that a scene was put with.
+// Holds the custom operators that a scene was put with.
 #pragma once
 
 #include <absl/container/btree_map.h>
@@ -11,10 +11,11 @@
 
 namespace isofield::catalog {
 
-// They are what the names in the scene's custom nodes mean, whatever becomes of these names; immutable.
+// The names in the scene's custom nodes mean these operators, even if the catalog later replaces or removes operators
+// of these names. Both members hold the same operators; they do not change once a scene has them.
 struct SceneOperators {
-  blobtree::OperatorTable table;                                            // as they were read
-  absl::btree_map<std::string, std::shared_ptr<const v1::Operator>> messages;  // as they were put
+  blobtree::OperatorTable table;                                            // in the form that the compiler reads
+  absl::btree_map<std::string, std::shared_ptr<const v1::Operator>> messages;  // the messages that were put
 };
 
 }  // namespace isofield::catalog

@@ -10,7 +10,7 @@
 namespace isofield::catalog {
 namespace {
 
-// The most names that an error lists.
+// An error lists at most this many names.
 constexpr std::size_t kMostNames = 10;
 
 }  // namespace

@@ -1,4 +1,5 @@
-// One kind of things in a store, with the errors that clients are told.
+// Gives access to one kind of values in a store, scenes or operators, and turns outcomes into the errors that clients
+// see.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -14,15 +15,15 @@
 
 namespace isofield::catalog {
 
-// What catalogues of scenes and of operators have in common. Thread-safe.
+// The common part of Catalog and OperatorCatalog. Thread-safe.
 class Shelf {
  public:
-  // The words by which errors speak of the kind.
+  // Errors speak of the kind with these words.
   struct Words {
     const char* one;   // "scene"
     const char* many;  // "scenes"
-    // Says that there is nothing of this name. `there` lists the names that there are, "'a', 'b', ..."; it is empty
-    // where there are none.
+    // Returns the message of an error: nothing has this name. `there` lists the names that there are, as in
+    // "'a', 'b', ..."; it is empty if there are none.
     std::function<std::string(const std::string& name, const std::string& there)> not_found;
   };
 
@@ -35,19 +36,20 @@ class Shelf {
     std::uint64_t replaced_version = 0;  // 0: none
   };
   // INVALID_ARGUMENT: the name is not allowed. ALREADY_EXISTS, NOT_FOUND, ABORTED: the condition does not hold.
-  // RESOURCE_EXHAUSTED: the quota.
+  // RESOURCE_EXHAUSTED: the quota is used up.
   absl::StatusOr<Put> put(const std::string& name, std::shared_ptr<const Value> value,
                           const Condition& condition = {});
-  // NOT_FOUND: there is nothing of this name.
+  // NOT_FOUND: nothing has this name.
   absl::StatusOr<Record> get(const std::string& name) const;
-  // The same for several names at one moment; nothing for a name that is not there.
+  // Returns the records that several names have at one moment, in the order of the names; a name that is not there has
+  // none.
   absl::StatusOr<std::vector<std::optional<Record>>> get_all(std::span<const std::string> names) const;
   absl::StatusOr<std::vector<Record>> list(const std::string& after, std::size_t most) const;
-  // Returns what is removed. NOT_FOUND: there is nothing of this name.
+  // Returns the record that is removed. NOT_FOUND: nothing has this name.
   absl::StatusOr<Record> remove(const std::string& name);
   absl::StatusOr<Usage> usage() const { return store_.usage(kind_); }
 
-  // "'a', 'b', ...", ten names at most; empty where there are none.
+  // Returns the names that there are, ten at most, as in "'a', 'b', ..."; the text is empty if there are none.
   absl::StatusOr<std::string> names() const;
 
  private:

@@ -1,4 +1,4 @@
-// Where scenes and custom operators are kept by name and version.
+// The interface of the storage that keeps scenes and custom operators by name and version. MemoryStore implements it.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -14,17 +14,18 @@
 
 namespace isofield::catalog {
 
-// What is kept. Names and versions of one kind have nothing to do with those of another.
+// The kinds of values that a store keeps. Each kind has its own names and versions.
 enum class Kind { kScene, kOperator };
 inline constexpr std::size_t kKinds = 2;
 
-// What is kept under a name. It is immutable, and shared by all who have got it from a store.
+// A value that is kept under a name. It is immutable, and all who get it from a store share it.
 class Value {
  public:
   virtual ~Value() = default;
-  // The form in which a value outlives the process; a Parse of its kind reads it.
+  // Returns the value as bytes, which can outlive the process. The Parse function of the value's kind reads them.
   virtual std::string serialized() const = 0;
-  // The bytes that count against Quota::bytes; 0 where nothing limits them. It costs nothing to ask.
+  // Returns how many bytes count against Quota::bytes; 0 if the bytes of this kind are not limited. A call must be
+  // cheap.
   virtual std::uint64_t bytes() const = 0;
 };
 
@@ -40,10 +41,10 @@ struct Record {
 // The condition under which a put happens.
 struct Condition {
   bool must_be_absent = false;
-  std::uint64_t version = 0;  // 0: any
+  std::uint64_t version = 0;  // the version that must be there; 0: any, or none
 };
 
-// The most entries of a kind, and bytes of them.
+// The most entries of a kind, and the most bytes that they may have together.
 struct Quota {
   std::uint64_t entries = UINT64_MAX;
   std::uint64_t bytes = UINT64_MAX;
@@ -53,11 +54,11 @@ struct Usage {
   std::uint64_t entries = 0, bytes = 0;
 };
 
-// Keeps records. It knows nothing of what the values are, and its errors are failures of the storage alone; what a
-// caller asks for in vain is an outcome. Thread-safe.
+// Keeps records without knowing what the values are. A status that is not OK means that the storage has failed; a
+// request that cannot be fulfilled is an outcome and no error. Thread-safe.
 //
-// Every request for a named scene calls get(), and so must not wait there for a disk or a network. An implementation
-// that has either keeps the records in memory too, and holds no lock that get() takes while it writes.
+// Every request for a named scene calls get(), which therefore must not wait for a disk or a network. An implementation
+// that writes to one keeps the records in memory as well, and must not hold a lock that get() takes while it writes.
 class Store {
  public:
   virtual ~Store() = default;
@@ -72,7 +73,7 @@ class Store {
       kTooManyBytes     // the quota: there would be `amount` bytes
     };
     Outcome outcome = Outcome::kDone;
-    std::uint64_t version = 0;  // of the new record, where the put is done
+    std::uint64_t version = 0;  // the version of the new record, if the put is done
     std::uint64_t found = 0;    // the version that was there before; 0: none
     std::uint64_t amount = 0;
   };
@@ -81,14 +82,15 @@ class Store {
   virtual absl::StatusOr<Put> put(Kind kind, const std::string& name, std::shared_ptr<const Value> value,
                                   const Condition& condition, const Quota& quota) = 0;
 
-  // The record of each name, at one moment; nothing for a name that is not there.
+  // Returns the records that the names have at one moment, in the order of the names. A name that is not there has
+  // none.
   virtual absl::StatusOr<std::vector<std::optional<Record>>> get(Kind kind,
                                                                  std::span<const std::string> names) const = 0;
 
-  // At most `most` records, in the order of their names, from the first name after `after` on.
+  // Returns at most `most` records, in the order of their names, from the first name after `after` on.
   virtual absl::StatusOr<std::vector<Record>> list(Kind kind, const std::string& after, std::size_t most) const = 0;
 
-  // Returns the record that is removed; nothing: there was none.
+  // Returns the record that is removed, or nothing if there was none.
   virtual absl::StatusOr<std::optional<Record>> remove(Kind kind, const std::string& name) = 0;
 
   virtual absl::StatusOr<Usage> usage(Kind kind) const = 0;

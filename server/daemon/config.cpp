@@ -36,7 +36,7 @@ CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
 
 constexpr absl::string_view kPrefix = "ISOFIELD_";
 
-// All options, each with the environment variable that is named after it. CLI11 is not told of the variables, since it
+// Holds all options, each with the environment variable that is named after it. CLI11 does not know the variables: it
 // would let a file override them, and would not name them in errors.
 class Options {
  public:
@@ -153,7 +153,7 @@ void append_setting(const CLI::Option& option, const std::string& name, const st
   }
 }
 
-// Says what is wrong with one setting by itself, "expected ..."; empty where nothing is.
+// Returns what is wrong with one setting by itself, in the form "expected ...", or "" if nothing is.
 std::string fault_of(const std::string& name, const std::string& value) {
   Options options("");
   std::vector<std::string> arguments;
@@ -161,7 +161,7 @@ std::string fault_of(const std::string& name, const std::string& value) {
   try {
     parse(options, arguments);
   } catch (const CLI::ConversionError&) {
-    return "expected true or false";  // it is a flag: faulty numbers fail their check, which is a ParseError
+    return "expected true or false";  // it is a flag, since a faulty number fails its check with another error
   } catch (const CLI::ParseError& error) {
     const std::string what = error.what();
     return std::string(absl::StripPrefix(what, absl::StrCat("--", name, ": ")));
@@ -185,7 +185,8 @@ absl::Status check_kind(const CLI::Option& option, const ConfigLine& line) {
   return absl::InvalidArgumentError(absl::StrCat("expected ", expected));
 }
 
-// The file's settings as arguments of the command line.
+// Returns the settings of the file as arguments of the command line. INVALID_ARGUMENT: a key is unknown, or a value is
+// faulty.
 absl::StatusOr<std::vector<std::string>> flags_of_file(const Options& options, const std::string& path) {
   ISOFIELD_ASSIGN_OR_RETURN(const std::vector<ConfigLine> lines, read_config_file(path));
   std::vector<std::string> names, flags;
@@ -211,8 +212,9 @@ absl::StatusOr<std::vector<std::string>> flags_of_file(const Options& options, c
   return flags;
 }
 
-// The environment's settings as arguments of the command line. An empty variable counts as none. A variable
-// ISOFIELD_... whose name is near that of an option is refused; others may belong to another program or to a cluster.
+// Returns the settings of the environment as arguments of the command line. An empty variable counts as not set.
+// INVALID_ARGUMENT: a value is faulty, or the name of an unknown variable ISOFIELD_... is near that of an option. Other
+// unknown variables are ignored, since they may belong to another program or to a cluster.
 absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& options) {
   std::vector<std::string> variables, flags;
   for (const Options::Settable& settable : options.settable) variables.push_back(settable.variable);
@@ -241,10 +243,10 @@ absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& opt
   return flags;
 }
 
-// The text of an error of the command line. For an unknown option it suggests the nearest known one.
+// Returns the text for an error of the command line. For an unknown option it suggests the nearest known one.
 std::string explain(const Options& options, const CLI::ParseError& error) {
   const std::vector<std::string> extras = options.app.remaining();
-  // Only flags fail so: faulty numbers fail their check, and texts need no conversion.
+  // Only a flag fails like this: a faulty number fails its check, and a text needs no conversion.
   if (dynamic_cast<const CLI::ConversionError*>(&error)) return absl::StrCat(error.what(), "; expected true or false");
   if (extras.empty()) return error.what();
   const std::string wanted = extras.front().substr(0, extras.front().find('='));
@@ -268,7 +270,7 @@ ParsedConfig parse_config(int argc, char** argv, const std::string& version) {
   try {
     parse(stated, flags);
   } catch (const CLI::Success& success) {
-    // CLI11 is told of the variables for --help, which lists them.
+    // CLI11 gets to know the variables only here, so that --help lists them.
     for (const Options::Settable& settable : stated.settable) settable.option->envname(settable.variable);
     return {std::nullopt, stated.app.exit(success)};
   } catch (const CLI::ParseError& error) {

@@ -24,8 +24,8 @@ bool is_key_letter(char c) {
   return absl::ascii_isalnum(c) || c == '-' || c == '_';
 }
 
-// Takes a text in quotes off the front of `rest`. A basic string ("") has escapes, a literal one ('') has none.
-// Nothing: the text does not end, or has an unknown escape.
+// Takes a text in quotes off the front of `rest`. A basic string ("") may contain escapes, a literal one ('') does not.
+// Returns nothing if the text does not end or has an unknown escape.
 std::optional<std::string> take_text(absl::string_view& rest) {
   const char quote = rest.front();
   std::string text;
@@ -46,8 +46,8 @@ std::optional<std::string> take_text(absl::string_view& rest) {
   return std::nullopt;
 }
 
-// Reads a whole number of TOML, which has a sign and decimal digits, or a prefix 0x, 0o or 0b, and may have underscores
-// between digits. Returns it in decimal digits; nothing where it is no such number.
+// Reads a whole number of TOML: an optional sign and decimal digits, or digits after the prefix 0x, 0o or 0b, with
+// underscores between digits allowed. Returns it in decimal digits, or nothing if `text` is no such number.
 std::optional<std::string> whole_number(absl::string_view text) {
   const std::string digits = absl::StrReplaceAll(text, {{"_", ""}});
   absl::string_view bare = digits;
@@ -64,7 +64,7 @@ std::optional<std::string> whole_number(absl::string_view text) {
   return absl::StrCat(is_negative ? "-" : "", bare);
 }
 
-// Takes a value off the front of `rest`, and fills in its kind and text. False: it is no value of TOML.
+// Takes a value off the front of `rest`, and fills in its kind and text. Returns false if it is no value of TOML.
 bool take_value(absl::string_view& rest, ConfigLine& out) {
   const absl::string_view all = rest;
   if (rest.front() == '"' || rest.front() == '\'') {
@@ -92,7 +92,7 @@ bool take_value(absl::string_view& rest, ConfigLine& out) {
   return true;
 }
 
-// Fills in everything but the line's number. An error says what is wrong.
+// Reads one line into `out`, except for the number of the line. INVALID_ARGUMENT: the message says what is wrong.
 absl::Status parse_line(absl::string_view text, ConfigLine& out) {
   const auto refuse = [](absl::string_view what, absl::string_view expected) {
     return absl::InvalidArgumentError(absl::StrCat(what.substr(0, 80), ": ", expected));

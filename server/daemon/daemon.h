@@ -1,4 +1,4 @@
-// Start-up order, serving, drain and shutdown.
+// Runs the daemon: it starts all parts in order, serves, and on a signal drains and shuts down.
 #pragma once
 
 #include <absl/status/status.h>
@@ -7,8 +7,9 @@
 
 namespace isofield::daemon {
 
-// Serves until SIGTERM or SIGINT, then lets running requests finish for config.drain_seconds; a second signal ends the
-// process at once. Call it from main before other threads start: it blocks those signals for all of them.
+// Serves until SIGTERM or SIGINT comes, then gives running requests config.drain_seconds to finish; a second signal
+// ends the process at once. It must be called before other threads start, since it blocks these signals for all
+// threads. Returns an error if the daemon cannot start.
 absl::Status run(const Config& config, const std::string& version);
 
 }  // namespace isofield::daemon

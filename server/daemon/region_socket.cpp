@@ -22,11 +22,12 @@ namespace {
 
 constexpr char kVersion = 1;
 
-// Descriptors of one packet: one is expected, others are closed.
+// A packet may bring up to this many descriptors. One is expected; all are closed after the packet is answered.
 constexpr std::size_t kMostDescriptors = 4;
 
+// The result of one read from a connection. It has no bytes if there is nothing to read yet.
 struct Packet {
-  bool is_over = false;  // the connection is closed
+  bool is_over = false;  // the client has closed the connection, or it has failed
   std::string bytes;
   std::vector<Descriptor> descriptors;
 };
@@ -125,7 +126,8 @@ RegionSocket::~RegionSocket() {
 void RegionSocket::serve() {
   std::vector<pollfd> waits;
   while (true) {
-    // While as many connections are open as are admitted, others wait.
+    // Each connection may own one region. While as many are open as are admitted, further clients wait in the
+    // listener's queue.
     const short accepts = connections_.size() < max_connections_ ? POLLIN : 0;
     waits = {{stop_.get(), POLLIN, 0}, {listener_.get(), accepts, 0}};
     for (const Connection& c : connections_) waits.push_back({c.socket.get(), POLLIN, 0});
@@ -166,7 +168,7 @@ bool RegionSocket::read_one(Connection& connection) {
     region = regions_.open(packet.descriptors.front().get());
     if (region.ok()) connection.region = *region;
   }
-  packet.descriptors.clear();  // a client that is answered finds nothing of it open
+  packet.descriptors.clear();  // closed before the answer, so that an answered client finds none of them open here
   return answer(connection.socket.get(), region) && region.ok();
 }
 

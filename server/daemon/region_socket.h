@@ -1,4 +1,5 @@
-// The unix socket where clients hand memory over, as shared_memory.proto says.
+// The unix socket by which clients of the same user share memory with the daemon; shared_memory.proto describes the
+// protocol.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -14,11 +15,11 @@
 
 namespace isofield::daemon {
 
-// The path of that socket beside config.listen, absolute, since clients may run in other folders; empty where no memory
-// is shared.
+// Returns the path of that socket, which lies beside config.listen, or "" if no memory is shared. The path is absolute,
+// since clients may run in other folders.
 std::string region_socket_path(const Config& config);
 
-// Owns a file descriptor.
+// Owns a file descriptor and closes it at the end; a negative number is no descriptor.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -35,12 +36,12 @@ class Descriptor {
   int number_;
 };
 
-// Serves on a thread of its own from its creation to its destruction, which removes the socket's file. `regions` must
-// outlive it.
+// Accepts connections and opens a region of `regions` for each; the region is closed with its connection. It serves on
+// a thread of its own from its creation to its destruction, which removes the socket's file. `regions` must outlive it.
 class RegionSocket {
  public:
-  // At `path`, of which a file that a dead process has left is replaced. INVALID_ARGUMENT: the path is too long.
-  // UNAVAILABLE: it cannot listen there.
+  // Listens at `path`; a socket that is there already, such as one of a dead process, is replaced. At most
+  // `max_connections` are open at once. INVALID_ARGUMENT: the path is too long. UNAVAILABLE: it cannot listen there.
   static absl::StatusOr<std::unique_ptr<RegionSocket>> listen(const std::string& path, rpc::SharedRegions& regions,
                                                               std::size_t max_connections);
   ~RegionSocket();
@@ -50,7 +51,7 @@ class RegionSocket {
  private:
   struct Connection {
     Descriptor socket;
-    std::string region;  // empty: none yet
+    std::string region;  // the name of its region; empty: it has none yet
   };
 
   RegionSocket(std::string path, rpc::SharedRegions& regions, std::size_t max_connections, Descriptor listener,
@@ -63,7 +64,7 @@ class RegionSocket {
         thread_([this] { serve(); }) {}
   void serve();
   void accept_one();
-  // False: it is over.
+  // Reads one packet and answers it. Returns false if the connection is over.
   bool read_one(Connection& connection);
 
   const std::string path_;
@@ -71,7 +72,7 @@ class RegionSocket {
   const std::size_t max_connections_;
   const Descriptor listener_, stop_;
   std::vector<Connection> connections_;
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // the last member, since the thread uses the others
 };
 
 }  // namespace isofield::daemon

@@ -29,10 +29,10 @@ absl::StatusOr<std::unique_ptr<RegionSocket>> share_memory(const Config& config,
   return RegionSocket::listen(path, regions, config.limits.shared.max_regions);
 }
 
-// Tells gRPC what to serve, where, and within which limits. `port` is set when the server has started.
+// Tells gRPC what to serve, at which address, and within which limits. gRPC sets `port` when the server starts.
 void set_up(const Config& config, Services& services, grpc::ServerBuilder& builder, int& port) {
   builder.AddListeningPort(config.listen, grpc::InsecureServerCredentials(), &port);
-  // Or a second daemon would share the port in silence.
+  // Otherwise a second daemon could listen on the same port without an error.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   builder.SetMaxReceiveMessageSize(static_cast<int>(config.limits.max_message_bytes));
   builder.SetMaxSendMessageSize(-1);
@@ -52,8 +52,8 @@ absl::StatusOr<std::unique_ptr<Server>> Server::start(const Config& config, Serv
   ISOFIELD_RETURN_IF_ERROR(check_listen_address(config.listen));
   auto started = std::unique_ptr<Server>(new Server);
   ISOFIELD_ASSIGN_OR_RETURN(started->region_socket_, share_memory(config, services.shared_regions()));
-  // Held until the process ends: the last one to let go of gRPC waits for its pollers, which sleep for 10 s each where
-  // a client was slow to read.
+  // This reference to gRPC is never given back. Whoever gives the last one back waits for gRPC's pollers, each of which
+  // may sleep for 10 s after a client was slow to read.
   grpc_init();
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();

@@ -10,7 +10,7 @@
 namespace isofield::daemon {
 namespace {
 
-// The mesher has a limit of its own.
+// Returns the configured limits, with the limit of cells lowered to what the mesher can do on its device.
 rpc::Limits limits_of(const Config& config, engine::Engine& engine) {
   rpc::Limits limits = config.limits;
   limits.max_mesh_cells = std::min(limits.max_mesh_cells, engine.mesher().max_cells());

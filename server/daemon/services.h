@@ -1,4 +1,5 @@
-// All that serves requests, from the store to the services of the contract.
+// Makes all objects that serve requests, from the store to the gRPC services, in the order in which they depend on one
+// another.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -29,6 +30,7 @@
 
 namespace isofield::daemon {
 
+// Owns the store, the catalogs, the admissions, the gRPC services and what connects them.
 class Services {
  public:
   // `engine` must outlive this. `specialised` has the specialised kernels of its device.
@@ -37,15 +39,16 @@ class Services {
   Services(const Services&) = delete;
   Services& operator=(const Services&) = delete;
 
-  // The full names of isofield's own services.
+  // Returns the full names of isofield's own services.
   static std::vector<std::string> names();
+  // Returns all services that gRPC must register, that of reflection included.
   std::vector<grpc::Service*> all();
   rpc::FieldService& fields() { return field_service_; }
   rpc::SharedRegions& shared_regions() { return shared_regions_; }
   rpc::CallLog& call_log() { return call_log_; }
 
  private:
-  // Each uses some of those before it.
+  // A member uses only members before it.
   const rpc::Limits limits_;
   rpc::Admission batches_, requests_;
   rpc::SharedRegions shared_regions_;
@@ -55,7 +58,7 @@ class Services {
   catalog::OperatorCatalog operators_;
   scenes::ResidentScenes residents_;
   const scenes::SceneSource scenes_;
-  const std::unique_ptr<engine::CompileAhead> ahead_;  // null: nothing is compiled ahead
+  const std::unique_ptr<engine::CompileAhead> ahead_;  // null if nothing is compiled ahead
   scenes::SceneEditor editor_;
   rpc::SceneService scene_service_;
   rpc::OperatorService operator_service_;

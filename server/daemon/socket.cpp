@@ -48,7 +48,7 @@ absl::Status check_listen_address(const std::string& address) {
   name.sun_family = AF_UNIX;
   std::memcpy(name.sun_path, path.data(), path.size());
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (fd < 0) return absl::OkStatus();  // gRPC will say why
+  if (fd < 0) return absl::OkStatus();  // gRPC will fail, too, and will say why
   const bool serves = connect(fd, reinterpret_cast<const sockaddr*>(&name), sizeof(name)) == 0;
   close(fd);
   if (serves) return absl::AlreadyExistsError(absl::StrCat("another process serves on ", address));

@@ -1,4 +1,4 @@
-// Checks of a listening address that gRPC leaves out.
+// Checks the address on which the daemon is to listen, in ways in which gRPC does not check it.
 #pragma once
 
 #include <absl/status/status.h>
@@ -7,11 +7,12 @@
 
 namespace isofield::daemon {
 
-// INVALID_ARGUMENT: neither HOST:PORT nor unix:PATH; gRPC would choose port 443 where none is stated, and another one
-// for a port beyond 65535. ALREADY_EXISTS: another process serves on the unix socket; gRPC would take its path over.
+// INVALID_ARGUMENT: the address is neither HOST:PORT nor unix:PATH; gRPC would choose port 443 if none is stated, and
+// some other port for one beyond 65535. ALREADY_EXISTS: another process serves on the unix socket; gRPC would take over
+// its path.
 absl::Status check_listen_address(const std::string& address);
 
-// The path of unix:PATH; empty: another address.
+// Returns the path of an address unix:PATH, or "" for another address.
 std::string unix_path(const std::string& address);
 
 }  // namespace isofield::daemon

@@ -14,11 +14,12 @@ namespace isofield::engine {
 namespace {
 
 constexpr int kNiceness = 19;
-// Cells along the longest edge of the mesh that is made; enough to need every kernel.
+// The number of cells along the longest edge of the mesh that is made; they suffice to need every kernel.
 constexpr std::uint32_t kCells = 24;
-// Kernels that the device holds. They are not used again: compiling them fills the driver's cache on disk.
+// The most kernels that the second device holds. They are not used again; they are compiled to fill the driver's cache
+// on disk.
 constexpr std::size_t kMostKernels = 64;
-// Beyond so many mixes of kinds, all are forgotten and compiled again, which the driver's cache makes cheap.
+// Beyond this number of mixes, all are forgotten and compiled again, which the driver's cache makes cheap.
 constexpr std::size_t kMostMixes = 256;
 
 }  // namespace
@@ -90,7 +91,7 @@ void CompileAhead::compile_for(const Edited& edited) {
   if (!engine_) {
     absl::StatusOr<std::unique_ptr<Engine>> engine = Engine::create(
         device_, limits_, {}, {.is_on = false, .folder = {}}, {.most = kMostKernels, .specialised = specialised_});
-    if (!engine.ok()) return;  // requests report errors of their own device
+    if (!engine.ok()) return;  // requests report the errors of their own device
     engine_ = *std::move(engine);
   }
   for (const v1::Scene& likely : likely_edits(*edited.scene, edited.lease->tape())) {

@@ -15,11 +15,12 @@
 
 namespace isofield::engine {
 
-// It meshes and evaluates the likely scenes (engine/likely_edits.h) on a device of its own, at low priority, so that no
-// request waits for this. The driver keeps what it compiles there on disk, where the device that serves requests finds
-// it. Where the driver has no folder to write to, the kernels are at least specialised already.
+// It meshes and evaluates the likely scenes (engine/likely_edits.h) on a second device that it owns, on a thread of low
+// priority, so that no request waits for this. The driver keeps what it compiles there on disk, where the device that
+// serves requests finds it. If the driver has no folder to write to, the kernels are at least specialised already.
 //
-// Thread-safe. The device is created when the first scene is edited.
+// Thread-safe. It creates the device when the first scene is edited. It reports no errors: a request that needs the
+// same kernel meets the error itself.
 class CompileAhead {
  public:
   // `specialised` has the specialised kernels of the device that serves requests.
@@ -35,7 +36,7 @@ class CompileAhead {
   // Waits until nothing is left to do.
   void wait();
 
-  // The number of mixes of kinds whose kernels have been compiled ahead.
+  // A mix is what a tape's kernels are specialised to. Returns the number of mixes that have been compiled ahead.
   std::uint64_t mixes() const;
 
  private:

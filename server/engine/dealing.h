@@ -1,4 +1,5 @@
-// The order of a dispatch's workgroups where the driver gives each of its threads a run of them.
+// Orders the jobs of a dispatch so that a driver that cuts the dispatch into equal runs, one for each of its threads,
+// gives every thread the same amount of work.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +9,10 @@
 
 namespace isofield::engine {
 
-// Deals jobs `begin` to `end` out into so many hands and lays these one after the other. What lies close together costs
-// alike, and lists have it side by side: of runs of such a list one may cost twice as much as another, of hands dealt
-// from it all cost the same. Neighbours that share memory stay together, by up to 64. (Meshes of a neuron by lavapipe
-// on two cores: 0.9 of the time.)
+// Reorders the jobs from `begin` to before `end`: it deals them out into `hands` hands, as one deals cards, and lays
+// the hands one after the other. Neighbours in a list cost about the same, and costs change along the list, so that one
+// run of the list may cost twice as much as another; hands that are dealt from it all cost the same. Neighbours share
+// memory, and so up to 64 of them are dealt together.
 template <class Job>
 void deal(std::vector<Job>& jobs, std::size_t begin, std::size_t end, std::uint64_t hands) {
   constexpr std::size_t kMostTogether = 64, kLeastRounds = 16;

@@ -1,4 +1,5 @@
-// The device with all that runs on it: what rpc/ calls down to.
+// The facade of this folder: an Engine owns a GPU device and everything that runs on it. The rooms above (scenes/,
+// rpc/) do their work on the device through it.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -24,7 +25,8 @@
 
 namespace isofield::engine {
 
-// Thread-safe.
+// Owns the device, the compiled kernels, the volumes, and the evaluators and the mesher that work on them. Thread-safe.
+// Scenes that it has made resident must not outlive it.
 class Engine {
  public:
   static absl::StatusOr<std::unique_ptr<Engine>> create(const gpu::DeviceOptions& options,
@@ -33,18 +35,18 @@ class Engine {
                                                         const TierTwoOptions& tier_two = {},
                                                         const KernelOptions& kernels = {});
 
-  // Validates, compiles and uploads. `operators`: those that custom nodes name. INVALID_ARGUMENT as stated in
-  // scene.proto.
+  // Validates, compiles and uploads a scene. `operators` holds the operators that custom nodes name. INVALID_ARGUMENT:
+  // the scene breaks a rule of scene.proto.
   absl::StatusOr<SceneLease> make_resident(const v1::Scene& scene, const blobtree::OperatorTable& operators = {});
 
-  // The resident form of `edited`, of which only numbers of `nodes` differ from the scene that `before` is of. Where
-  // they are profiles of blends nothing is compiled, and only operators' parameters are uploaded.
+  // Returns the resident form of `edited`, which differs from the scene of `before` only in numbers of `nodes`. If
+  // these numbers are all profiles of blends, it compiles nothing and uploads only the operators' parameters.
   absl::StatusOr<SceneLease> edit(const ResidentScene& before, const v1::Scene& edited,
                                   const std::vector<std::uint32_t>& nodes, const blobtree::OperatorTable& operators);
 
   VolumeCache& volumes() { return volumes_; }
 
-  // Beside others' requests; errors as of EvaluationQueue.
+  // Both put a batch of points into the queue that all requests share. Errors are those of EvaluationQueue.
   absl::Status evaluate(const PointBatch& batch);
   void submit(PointBatch batch, EvaluationQueue::Done done);
 

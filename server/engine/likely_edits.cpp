@@ -43,7 +43,7 @@ class Draft {
     cylinder.set_radius(size_ / 2);
     finish(cylinder);
   }
-  // Adds a primitive of a kind that the scene has already, which needs no further kernels; a box where there is none.
+  // Adds a copy of a primitive that the scene has already, which needs no further kernels, or a box if it has none.
   void add_known() {
     const auto& nodes = scene_.nodes();
     const auto known = std::find_if(nodes.begin(), nodes.end(), [&](const v1::Node& n) { return is_alike(n); });
@@ -53,8 +53,8 @@ class Draft {
     add() = std::move(copy);
   }
 
-  // Joins the last node with the scene: as one more operand of the root, where that takes any number, else by a new
-  // root over both.
+  // Joins the last node with the scene. If the root takes any number of operands, the node becomes one of them;
+  // otherwise a new root joins both.
   v1::Scene join_last() && {
     if (google::protobuf::RepeatedPtrField<std::string>* const children = children_of_root()) {
       children->Add(last());
@@ -78,7 +78,7 @@ class Draft {
 
  private:
   static std::string reference(int node) { return absl::StrCat("#", node); }
-  // True for a primitive whose field follows the scene's law.
+  // Returns true for a primitive whose field follows the scene's law.
   bool is_alike(const v1::Node& node) const {
     const google::protobuf::FieldDescriptor* const kind = node.GetDescriptor()->FindFieldByNumber(node.kind_case());
     const auto* const law = kind ? kind->message_type()->FindFieldByName("law") : nullptr;
@@ -98,7 +98,7 @@ class Draft {
     }
   }
 
-  // The children of the root, if it is an operator that takes any number of them; else null.
+  // Returns the children of the root if it is an operator that takes any number of them; else null.
   google::protobuf::RepeatedPtrField<std::string>* children_of_root() {
     for (int i = 0; i < scene_.nodes_size(); ++i) {
       v1::Node& node = *scene_.mutable_nodes(i);

@@ -31,7 +31,7 @@ class TimedScope {
   TimedScope(const TimedScope&) = delete;
   TimedScope& operator=(const TimedScope&) = delete;
 
-  // The times of the innermost scope of this thread; null where there is none.
+  // Returns the times of the innermost scope of this thread, or null if there is none.
   static RequestTimes* current() { return current_; }
 
  private:

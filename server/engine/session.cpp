@@ -29,7 +29,7 @@ absl::StatusOr<Buffer> Session::scratch(std::size_t bytes) {
 }
 
 absl::StatusOr<const Buffer*> Session::input(std::span<const float> data) {
-  // Kernels that are given it read it alone.
+  // The cast is safe, because kernels only read this buffer.
   float* const bytes = const_cast<float*>(data.data());
   if (auto borrowed = borrow(*device_, std::as_writable_bytes(std::span(bytes, data.size())))) {
     return &keep(*std::move(borrowed));

@@ -1,4 +1,4 @@
-// One piece of work on the device: arrays go up, kernels run, arrays come down.
+// A Session is one piece of work on the device: it uploads arrays, runs kernels, and downloads their results.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -18,47 +18,50 @@
 
 namespace isofield::engine {
 
-// One thread. Where the device's memory is the host's, nothing is staged. What it submits takes its turn at the device
-// until it is done.
+// Belongs to one thread. It owns the commands, and the buffers that it keeps, until it is over. Arrays are copied
+// through staging buffers only where the host cannot map the device's memory. Each submission takes a turn at the
+// device (gpu/turns.h) and holds it until the device is done.
 class Session {
  public:
-  // `turn`: one that is held already, for the first submission.
+  // `turn` is a turn that the caller holds already; the first submission uses it.
   static absl::StatusOr<Session> begin(gpu::Device& device, const gpu::Urgency& urgency = {},
                                        gpu::Turns::Turn turn = {});
 
   gpu::Commands& commands() { return commands_; }
 
-  // A buffer on the device that holds `data` when the next dispatch runs.
+  // Returns a buffer on the device that holds `data` when the next dispatch runs.
   template <class T>
   absl::StatusOr<gpu::Buffer> upload(std::span<T> data) {
     return upload_bytes(std::as_bytes(data));
   }
-  // The same for data that stays until the session is over, which keeps the buffer: a large array is not copied where
-  // the device can read the host's.
+  // The same for data that stays unchanged until the session is over; the session keeps the buffer. A large array is
+  // not copied where the device can read the host's memory.
   absl::StatusOr<const gpu::Buffer*> input(std::span<const float> data);
-  // A buffer of undefined content to download() to `out`: where the device can write there, `out` itself.
+  // Returns a buffer of undefined content, to be passed to download() with `out`. Where the device can write to the
+  // host's memory, the buffer is `out` itself.
   absl::StatusOr<const gpu::Buffer*> output(std::span<float> out);
-  // A buffer of undefined content.
+  // Returns a buffer of undefined content, which the caller owns.
   absl::StatusOr<gpu::Buffer> scratch(std::size_t bytes);
-  // Keeps a buffer until the session is over, for kernels that it runs.
+  // Keeps a buffer until the session is over, because kernels of the session use it.
   const gpu::Buffer& keep(gpu::Buffer buffer) { return kept_.emplace_back(std::move(buffer)); }
-  // As upload() and scratch(), of buffers that the session keeps.
+  // The same as upload() and scratch(), but the session keeps the buffers.
   template <class T>
   absl::StatusOr<const gpu::Buffer*> lend(std::span<T> data) {
     return lend(upload(data));
   }
   absl::StatusOr<const gpu::Buffer*> lend_scratch(std::size_t bytes) { return lend(scratch(bytes)); }
-  // Fills `out` from the start of the buffer when run() returns; record it after the dispatches that write the buffer.
-  // No work where output() gave it for `out`.
+  // Records that `out` is filled from the start of the buffer by the time run() returns. Call it after the dispatches
+  // that write the buffer. It costs nothing where output() returned this buffer for `out`.
   template <class T>
   absl::Status download(const gpu::Buffer& buffer, std::span<T> out) {
     return download_bytes(buffer, std::as_writable_bytes(out));
   }
-  // Submits what is recorded, waits for it, and goes on: others' work may run in between.
+  // Submits what is recorded so far, waits for it, and starts to record anew. Other work may use the device in between.
   absl::Status flush();
-  // Submits, waits, and carries out the downloads. The session is over.
+  // Submits, waits, and carries out the downloads. The session is over then.
   absl::Status run();
-  // The same in steps, for work of the host's beside the device's. The turn is held from submit() to the end of wait().
+  // These three do the same as run() in steps, so that the host can work while the device does. The session holds its
+  // turn from submit() to the end of wait().
   absl::Status submit();
   absl::Status wait();
   void collect();
@@ -81,7 +84,7 @@ class Session {
   gpu::Urgency urgency_;
   gpu::Turns::Turn turn_;
   std::optional<std::chrono::steady_clock::time_point> submitted_;
-  std::deque<gpu::Buffer> kept_;  // outlives the commands
+  std::deque<gpu::Buffer> kept_;  // declared before the commands, so that it outlives them
   gpu::Commands commands_;
   std::vector<Download> downloads_;
 };

@@ -14,7 +14,7 @@ constexpr vk::BufferUsageFlags kUsage = vk::BufferUsageFlagBits::eStorageBuffer 
                                         vk::BufferUsageFlagBits::eUniformBuffer |
                                         vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst;
 
-// Memory kinds in the order of preference.
+// Returns the properties of memory that suit a use, the most wanted ones first.
 std::vector<Flags> wishes(Buffer::Use use) {
   switch (use) {
     case Buffer::Use::kUpload:
@@ -43,7 +43,7 @@ bool worth_mapping(const Device::Impl& device, Flags flags, Buffer::Use use) {
   return device.profile.maps_memory;
 }
 
-// Memory and all of a buffer of `bytes`.
+// Makes a Vulkan buffer of `bytes` with memory of its own, which is mapped if that is worth it.
 absl::StatusOr<std::unique_ptr<Buffer::Impl>> make(Device::Impl& d, std::size_t bytes, Buffer::Use use) {
   auto impl = std::make_unique<Buffer::Impl>(d);
   impl->buffer.emplace(*d.device, vk::BufferCreateInfo({}, bytes, kUsage));
@@ -103,7 +103,8 @@ std::optional<Buffer> Buffer::borrow(Device& device, std::span<std::byte> bytes)
   if (d.borrow_alignment == 0 || bytes.empty() || address % kBorrowedAlignment != 0) {
     return std::nullopt;
   }
-  // The pages that hold them; the device uses nothing else of these.
+  // Vulkan imports whole pages. The buffer lies over the pages that hold the bytes, but kernels and copies use only the
+  // bytes themselves.
   const std::uintptr_t first = address / d.borrow_alignment * d.borrow_alignment;
   const std::uintptr_t end =
       (address + bytes.size() + d.borrow_alignment - 1) / d.borrow_alignment * d.borrow_alignment;

@@ -1,4 +1,5 @@
-// A storage buffer on the device.
+// A buffer of bytes that the device reads and writes: kernels bind it as a storage or uniform buffer, and copies may
+// start or end in it.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -12,20 +13,22 @@
 
 namespace isofield::gpu {
 
-// Owns its memory; movable. Not thread-safe.
+// Owns its memory, except when it borrows the host's. A small buffer that is destroyed leaves its memory to later
+// buffers of the same use and size class. Movable; not thread-safe.
 class Buffer {
  public:
   enum class Use {
-    kDevice,    // read and written by shaders; mapped where the device's own memory is the host's (lavapipe)
+    kDevice,    // read and written by shaders; mapped if the device's memory is the host's, as with lavapipe
     kUpload,    // written by the host
     kReadback,  // read by the host
   };
 
-  // `bytes` is rounded up to a multiple of 16 and to at least 16. RESOURCE_EXHAUSTED: out of memory, or more than one
-  // binding holds.
+  // Makes a buffer of undefined content; `bytes` is rounded up to a multiple of 16, and to at least 16.
+  // RESOURCE_EXHAUSTED: memory has run out, or one binding cannot hold so many bytes.
   static absl::StatusOr<Buffer> create(Device& device, std::size_t bytes, Use use);
-  // A buffer that is the host's own bytes, which must outlive the device's use of it; nothing where the device cannot
-  // or had better not, or where the address is no multiple of 16.
+  // Makes a buffer whose memory is the host's `bytes`, which must outlive the device's use of it, so that nothing is
+  // copied. Returns nothing if the device cannot do that, if its profile advises against it, or if the address is not a
+  // multiple of 16.
   static std::optional<Buffer> borrow(Device& device, std::span<std::byte> bytes);
   Buffer();
   Buffer(Buffer&&) noexcept;
@@ -33,14 +36,14 @@ class Buffer {
   ~Buffer();
 
   std::size_t size() const;
-  // Null unless the memory is mapped; coherent.
+  // Returns the buffer's memory as the host sees it, or null if it is not mapped. The memory is coherent.
   std::byte* data() const;
 
   struct Impl;  // gpu/buffer_impl.h
   const Impl& impl() const { return *impl_; }
 
  private:
-  // Leaves a small one to be used again.
+  // Destroys a buffer, or leaves a small one to be used again.
   struct Release {
     void operator()(Impl* impl) const;
   };

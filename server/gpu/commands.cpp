@@ -28,7 +28,7 @@ vk::DescriptorSet Commands::Impl::next_set() {
     sets_left = kSetsPerPool;
   }
   --sets_left;
-  // Freed with their pool.
+  // Descriptor sets are freed with their pool, so nothing owns this one.
   return (*device.device).allocateDescriptorSets({*set_pools.back(), **device.set_layout}).front().release();
 }
 
@@ -55,7 +55,7 @@ void Commands::Release::operator()(Impl* impl) const {
     Device::Impl& device = owned->device;
     device.spare_commands.give(std::move(owned));
   } catch (const vk::SystemError&) {
-    // It is destroyed.
+    // The object is then destroyed instead of being kept.
   }
 }
 
@@ -102,7 +102,7 @@ absl::Status Commands::record(const SharedPipeline& pipeline, const Bindings& bi
       bind(b.binding, *b.buffer, b.offset);
       named |= 1u << b.binding;
     }
-    // Vulkan wants a buffer wherever the module, as yet unspecialised, could read one.
+    // Vulkan requires a buffer at every binding that the module declares, even if its specialisation never reads it.
     for (std::uint32_t binding = 0; binding < kBindings + kUniformBindings && !bindings.empty(); ++binding) {
       if (!(named >> binding & 1u)) bind(binding, *bindings.front().buffer, 0);
     }

@@ -1,4 +1,4 @@
-// Work for the device: recorded, submitted once, waited for.
+// Commands are work for the device: the caller records dispatches and copies, submits them once, and waits.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -13,8 +13,9 @@
 
 namespace isofield::gpu {
 
-// For one thread at a time. Buffers that are used must live until wait() has returned; the commands keep pipelines
-// alive until then. Destroying submitted commands waits for them.
+// One thread at a time may use an object. Buffers in use must live until wait() has returned; the commands keep the
+// pipelines alive until then. The destructor of submitted commands waits for them. Functions that return a status fail
+// with RESOURCE_EXHAUSTED if memory runs out, else with INTERNAL.
 class Commands {
  public:
   static absl::StatusOr<Commands> begin(Device& device);
@@ -22,15 +23,16 @@ class Commands {
   Commands& operator=(Commands&&) noexcept;
   ~Commands();
 
-  // A buffer at a binding. A part of a uniform buffer may be bound, whose offset is a multiple of kUniformAlignment.
+  // Binds a buffer, from `offset` in bytes on, at a number that shaders know. The offset of a uniform buffer must be a
+  // multiple of kUniformAlignment.
   struct Binding {
     std::uint32_t binding;
     const Buffer* buffer;
     std::size_t offset = 0;
   };
   using Bindings = std::vector<Binding>;
-  // Runs `groups` workgroups along x, at most kMaxGroups. Nothing is recorded for 0. Bindings that the pipeline
-  // declares but its specialisation never reads may go unnamed.
+  // Records a dispatch of `groups` workgroups along x, at most kMaxGroups; 0 records nothing. Bindings that the
+  // pipeline declares but its specialisation never reads may be left out.
   absl::Status dispatch(const SharedPipeline& pipeline, const Bindings& bindings,
                         std::span<const std::byte> push_constants, std::uint32_t groups);
   template <class Constants>
@@ -38,18 +40,18 @@ class Commands {
                         std::uint32_t groups) {
     return dispatch(pipeline, bindings, std::as_bytes(std::span(&constants, 1)), groups);
   }
-  // Records a dispatch of no workgroups, which makes the driver compile the pipeline. `any` is bound in place of all
-  // buffers.
+  // Records a dispatch of no workgroups, which makes the driver compile the pipeline. `any` is bound at all bindings.
   absl::Status dispatch_nothing(const SharedPipeline& pipeline, const Buffer& any);
-  // Commands after the barrier see the results of those before it.
+  // Makes commands after the barrier see the results of commands before it.
   void barrier();
   void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset, std::size_t bytes);
   void fill_zero(const Buffer& buffer);
 
-  // True where commands are recorded that have not been submitted.
+  // Tells whether any work has been recorded.
   bool has_work() const;
+  // Gives what is recorded to the device's queue. It may be called once.
   absl::Status submit();
-  // Waits until the device is done. Returns at once where nothing has been submitted.
+  // Waits until the device is done. Returns at once if nothing has been submitted.
   absl::Status wait();
 
   struct Impl;
@@ -65,13 +67,13 @@ class Commands {
   std::unique_ptr<Impl, Release> impl_;
 };
 
-// Bindings from here on are uniform buffers, of which kernels see the first kUniformBytes: more than Vulkan's least
-// limit, so device_selection asks for it.
+// Bindings from kFirstUniformBinding on are uniform buffers, of which kernels see the first kUniformBytes. Vulkan does
+// not guarantee so many bytes, so device_selection asks for a device that has them.
 inline constexpr std::uint32_t kFirstUniformBinding = 16;
 inline constexpr std::size_t kUniformBytes = 65'536;
-inline constexpr std::size_t kUniformAlignment = 256;  // the most that a Vulkan device may ask for
+inline constexpr std::size_t kUniformAlignment = 256;  // the largest alignment that a Vulkan device may require
 
-// Groups a dispatch may have.
+// The most workgroups that a dispatch may have.
 inline constexpr std::uint32_t kMaxGroups = 65'535;
 
 }  // namespace isofield::gpu

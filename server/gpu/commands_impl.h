@@ -1,4 +1,4 @@
-// Private to this room: what Commands hold.
+// The content of Commands. Only files in gpu/ may include this header, since it includes Vulkan.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,11 @@ namespace isofield::gpu {
 
 struct Commands::Impl {
   explicit Impl(Device::Impl& device);
+  // Returns a descriptor set for the next dispatch.
   vk::DescriptorSet next_set();
-  // Until the device is done; at once when nothing was submitted.
+  // Waits until the device is done. Returns at once if nothing has been submitted.
   absl::Status wait();
-  // Forgets what was recorded; the device must be done with it.
+  // Forgets what was recorded, so that the object can be used again. The device must be done with it.
   void reset();
 
   Device::Impl& device;
@@ -22,11 +23,11 @@ struct Commands::Impl {
   vk::raii::CommandBuffer buffer;
   vk::raii::Fence fence;
   std::vector<vk::raii::DescriptorPool> set_pools;
-  std::vector<SharedPipeline> pipelines;  // of the dispatches
-  std::uint32_t sets_left = 0;  // in the last pool
+  std::vector<SharedPipeline> pipelines;  // those of the dispatches, kept alive until these are done
+  std::uint32_t sets_left = 0;  // descriptor sets that the last pool still has
   bool has_work = false;
-  bool is_submitted = false;
-  bool is_spent = false;  // submitted, whatever became of it
+  bool is_submitted = false;  // submitted and not waited for
+  bool is_spent = false;      // has been submitted, so that the fence must be reset before it is used again
 };
 
 }  // namespace isofield::gpu

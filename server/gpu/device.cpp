@@ -94,7 +94,7 @@ std::optional<std::uint32_t> compute_family(const vk::raii::PhysicalDevice& devi
   return std::nullopt;
 }
 
-// Device::Impl::borrow_alignment of a device that can borrow.
+// Returns the value of Device::Impl::borrow_alignment for a device: 0 if it cannot use the host's memory.
 std::size_t borrow_alignment(const vk::raii::PhysicalDevice& device) {
   const vk::PhysicalDeviceProperties properties = device.getProperties();
   const auto extensions = device.enumerateDeviceExtensionProperties();
@@ -127,7 +127,7 @@ DeviceCandidate candidate(const vk::raii::PhysicalDevice& device) {
   c.storage_buffers_per_stage = properties.limits.maxPerStageDescriptorStorageBuffers;
   c.uniform_bytes = properties.limits.maxUniformBufferRange;
   c.workgroup_invocations = properties.limits.maxComputeWorkGroupInvocations;
-  // A device of Vulkan 1.0 cannot be asked, and is refused for that.
+  // A device of Vulkan 1.0 cannot be asked about subgroups. It is refused for its version.
   c.has_subgroup_operations = properties.apiVersion >= VK_API_VERSION_1_1 && has_subgroup_operations(device);
   return c;
 }

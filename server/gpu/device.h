@@ -1,4 +1,5 @@
-// A Vulkan device with one compute queue: the root object of this room. All of gpu/ keeps Vulkan out of its headers.
+// A Vulkan device with one compute queue. Buffers, pipelines and commands are made from it. The headers of gpu/ that
+// other folders include keep Vulkan out of them.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -18,29 +19,32 @@ namespace isofield::gpu {
 struct DeviceOptions {
   // Part of the name of the device to use; empty: the best one.
   std::string name;
-  // The Khronos validation layer; an error when it is not installed.
+  // Runs under the Khronos validation layer. Device::create() fails if the layer is not installed.
   bool validation = false;
-  // Never maps device memory, as if the host could not see it: the road of discrete devices, testable on any.
+  // Makes the profile neither map nor borrow memory, as if the host could not see the device's memory. Tests use this
+  // to take the way of discrete devices on any device.
   bool always_stage = false;
   // Called with each validation message, from any thread.
   std::function<void(const std::string&)> on_validation_message;
 };
 
-// Thread-safe. Must outlive all that is made from it.
+// Thread-safe. It must outlive everything that is made from it.
 class Device {
  public:
-  // NOT_FOUND: no usable device, or no validation layer. INTERNAL: the driver failed.
+  // Opens the device that `options` ask for. NOT_FOUND: there is no usable device, no Vulkan, or no validation layer.
+  // RESOURCE_EXHAUSTED: memory has run out. INTERNAL: the driver has failed in another way.
   static absl::StatusOr<std::unique_ptr<Device>> create(const DeviceOptions& options);
   ~Device();
 
   const DeviceDescription& description() const;
   const DeviceProfile& profile() const;
-  // Validation messages so far.
+  // Returns the number of validation messages so far.
   std::uint64_t validation_messages() const;
-  // Bytes of buffers in use now. Some MiB more of small ones are kept to be used again.
+  // Returns the bytes of all buffers in use. Small buffers that are kept to be used again take some MiB more.
   std::uint64_t allocated_bytes() const;
 
-  // Of its queue: what can take long, or is asked by many, submits in its turn.
+  // The order of access to the device's queue. Work that can take long, or that many ask for, takes a turn before it
+  // submits.
   Turns& turns();
 
   struct Impl;  // gpu/device_impl.h

@@ -1,4 +1,4 @@
-// Private to this room: what a Device holds.
+// The content of a Device. Only files in gpu/ may include this header, since it includes Vulkan.
 #pragma once
 
 #include <array>
@@ -14,16 +14,16 @@
 
 namespace isofield::gpu {
 
-// Bindings of every pipeline: storage buffers 0 to kBindings - 1, uniform buffers from there on, and kPushBytes of push
-// constants.
+// All pipelines have the same layout: storage buffers at the bindings 0 to kBindings - 1, kUniformBindings uniform
+// buffers after them, and kPushBytes of push constants.
 inline constexpr std::uint32_t kBindings = 16;
 inline constexpr std::uint32_t kUniformBindings = 3;
 inline constexpr std::uint32_t kPushBytes = 128;
 
-// Small buffers are made in sizes of 2^n bytes and used again: from 2^kLeastSpareBits to 2^kMostSpareBits.
+// Small buffers have sizes of 2^n bytes, from 2^kLeastSpareBits to 2^kMostSpareBits, and are used again.
 inline constexpr std::uint32_t kLeastSpareBits = 8, kMostSpareBits = 18;
 
-// Of addresses of borrowed bytes: kernels read and write vec4s there.
+// Addresses of borrowed bytes are multiples of this, since kernels read and write vec4s there.
 inline constexpr std::size_t kBorrowedAlignment = 16;
 
 struct Device::Impl {
@@ -45,15 +45,15 @@ struct Device::Impl {
 
   DeviceDescription description;
   DeviceProfile profile;
-  // What addresses and sizes of host memory that a buffer lies over are multiples of; 0: none does.
+  // A buffer over host memory begins and ends at multiples of this address; 0: the device does not borrow host memory.
   std::size_t borrow_alignment = 0;
   std::function<void(const std::string&)> on_validation_message;
   std::atomic<std::uint64_t> validation_messages{0};
   std::atomic<std::uint64_t> allocated_bytes{0};
 
-  // Last, and so gone before the device is.
+  // These are the last members, so that they are destroyed before the Vulkan device.
   std::array<std::array<Spares<Buffer::Impl>, kMostSpareBits - kLeastSpareBits + 1>, 3>
-      spare_buffers;  // by use and size
+      spare_buffers;  // by use, then by n of the size 2^n
   Spares<Commands::Impl> spare_commands;
 };
 

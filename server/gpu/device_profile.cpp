@@ -41,16 +41,17 @@ constexpr std::array kNumbers{
     ProfileNumber{"borrows_memory", "flag", "the device works on the host's memory", &P::borrows_memory},
 };
 
-// A number that is added to the struct is added to the table, too.
+// The assertion fails if a number of the struct is missing in the table: numbers take 8 bytes, flags one.
 constexpr std::size_t kFlags = std::count_if(kNumbers.begin(), kNumbers.end(), [](const ProfileNumber& n) {
   return std::holds_alternative<bool DeviceProfile::*>(n.member);
 });
 static_assert(sizeof(DeviceProfile) == ((kNumbers.size() - kFlags) * 8 + kFlags + 7) / 8 * 8);
 
-// A workgroup of the kernels of sorted points.
+// The number of invocations in a workgroup of the kernels for sorted points.
 constexpr std::uint64_t kWorkgroup = 64;
 
-// Mesa's lavapipe runs a thread a processor, 16 at most (lp_cs_tpool.c), and gives each an equal run.
+// The profile of a device that runs on the processor. Mesa's lavapipe has one thread for each processor, at most 16
+// (lp_cs_tpool.c), and gives each of them a run of equal length.
 DeviceProfile of_processor(const DeviceDescription& device, unsigned host_threads) {
   DeviceProfile profile;
   profile.dispatch_runs = std::clamp(host_threads, 1u, 16u);
@@ -58,7 +59,7 @@ DeviceProfile of_processor(const DeviceDescription& device, unsigned host_thread
   return profile;
 }
 
-// `power`: how many times the work of lavapipe on two cores it is given at once.
+// The profile of a GPU, which gets `power` times as much work at once as lavapipe on two cores.
 DeviceProfile of_gpu(std::uint64_t power) {
   DeviceProfile profile;
   profile.submission_work *= power;
@@ -71,7 +72,8 @@ DeviceProfile of_gpu(std::uint64_t power) {
   profile.indexed_points_per_brick = 64;
   profile.small_points = 16'384;
   profile.joined_points = 1u << 18;
-  // A dispatch of a part of a brick's corners an eighth of a workgroup holds no more.
+  // Each brick has 16 octets of corners, and a workgroup takes 8 octets, so more bricks would not fit into one dispatch
+  // of 65,535 workgroups.
   profile.slab_bricks = 32'000;
   profile.rays = 1u << 18;
   profile.round_bricks = 1u << 20;

@@ -11,7 +11,7 @@ constexpr std::uint32_t kStorageBuffers = 16;
 constexpr std::uint32_t kUniformBytes = 65'536;
 constexpr std::uint32_t kInvocations = 64;
 
-// Empty: fit.
+// Returns why a candidate cannot be used, or "" if it can.
 std::string unfit_because(const DeviceCandidate& c, const std::string& wanted) {
   if (c.api_major < 1 || (c.api_major == 1 && c.api_minor < 1)) {
     return absl::StrCat("has Vulkan ", c.api_major, ".", c.api_minor, ", 1.1 is needed");

@@ -1,4 +1,5 @@
-// Which of a machine's devices to use: a pure function, testable without one.
+// Chooses which of a machine's Vulkan devices to use. It is a pure function of what drivers state, so that it can be
+// tested without a device.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -9,6 +10,7 @@
 
 namespace isofield::gpu {
 
+// The properties of a device on which the choice depends.
 struct DeviceCandidate {
   enum class Type { kDiscrete, kIntegrated, kVirtual, kCpu, kOther };
 
@@ -19,12 +21,13 @@ struct DeviceCandidate {
   std::uint32_t storage_buffers_per_stage = 0;
   std::uint32_t uniform_bytes = 0;
   std::uint32_t workgroup_invocations = 0;
-  // Votes and shuffles of subgroups in compute shaders.
+  // Compute shaders can use votes and shuffles within subgroups.
   bool has_subgroup_operations = false;
 };
 
-// The place of the best candidate: one whose name holds `wanted` (any case), or, where that is empty, discrete before
-// integrated before virtual before CPU; the first among equals. NOT_FOUND: none will do, with the reason for each.
+// Returns the index of the best usable candidate whose name contains `wanted`, in upper or lower case; every name does
+// if `wanted` is empty. The order is discrete, integrated, virtual, CPU, other; among equals the first is taken.
+// NOT_FOUND: none is usable; the message gives the reason for each.
 absl::StatusOr<std::size_t> select_device(const std::vector<DeviceCandidate>& candidates, const std::string& wanted);
 
 }  // namespace isofield::gpu

@@ -8,8 +8,9 @@
 namespace isofield::gpu {
 namespace {
 
-// A driver that runs kernels on the CPU may put off the compilation until the first dispatch. lavapipe does, and then
-// compiles on the thread that serves all submissions, so a dispatch of nothing is run here.
+// Makes the driver compile a pipeline now. A driver that runs kernels on the CPU may put the compilation off until the
+// first dispatch. lavapipe does, and then compiles on the thread that serves all submissions, so a dispatch without
+// workgroups is run here.
 absl::Status compile_now(Device& device, const SharedPipeline& pipeline) {
   absl::StatusOr<Buffer> any = Buffer::create(device, kUniformAlignment, Buffer::Use::kDevice);
   if (!any.ok()) return any.status();

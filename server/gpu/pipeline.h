@@ -1,4 +1,4 @@
-// A compute pipeline: an entry point, compiled.
+// A compute pipeline is a kernel that the driver has compiled, ready to be dispatched.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -14,10 +14,10 @@ namespace isofield::gpu {
 class Pipeline;
 using SharedPipeline = std::shared_ptr<const Pipeline>;
 
-// Immutable after creation, so usable from any thread.
+// Owns the compiled kernel. It never changes, so any thread may use it.
 class Pipeline {
  public:
-  // The entry point is main. The driver has compiled it when this returns.
+  // Makes a pipeline of a SPIR-V module, whose entry point is main. The driver has compiled it when this returns.
   static absl::StatusOr<SharedPipeline> create(Device& device, std::span<const std::uint32_t> spirv);
   ~Pipeline();
 

@@ -1,4 +1,4 @@
-// Private to this room: what a Pipeline holds.
+// The content of a Pipeline. Only files in gpu/ may include this header, since it includes Vulkan.
 #pragma once
 
 #include "gpu/pipeline.h"

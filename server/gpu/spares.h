@@ -1,4 +1,4 @@
-// Private to this room: objects that are dear to make, kept for the next one who needs such a thing.
+// Keeps objects that take long to make, so that they are used again instead of being destroyed. Only gpu/ uses it.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace isofield::gpu {
 
-// Thread-safe.
+// Owns the objects that it keeps. Thread-safe.
 template <class T>
 class Spares {
  public:
-  // Null: there is none.
+  // Returns a kept object, or null if there is none.
   std::unique_ptr<T> take() {
     const base::MutexLock lock(mutex_);
     if (kept_.empty()) return nullptr;
@@ -22,7 +22,7 @@ class Spares {
     kept_.pop_back();
     return last;
   }
-  // Destroys it where enough are kept.
+  // Keeps an object, or destroys it if kMost are kept already.
   void give(std::unique_ptr<T> object) {
     const base::MutexLock lock(mutex_);
     if (kept_.size() < kMost) kept_.push_back(std::move(object));

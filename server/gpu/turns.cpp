@@ -26,7 +26,7 @@ std::size_t Turns::waiting() const {
   return waiters_.size();
 }
 
-// Hands the turn over where one waits: it is never free in between.
+// Hands the turn to a waiting thread if there is one. The turn is never free in between, so no newcomer can take it.
 void Turns::release() {
   const base::MutexLock lock(mutex_);
   is_taken_ = !waiters_.empty();

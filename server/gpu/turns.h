@@ -1,4 +1,5 @@
-// Who uses the device's queue next: one piece of work at a time, the most urgent first.
+// Decides which thread may use the device's queue next. One thread has the turn at a time, and the most urgent waiting
+// one gets it next.
 #pragma once
 
 #include <chrono>
@@ -13,22 +14,22 @@ namespace isofield::gpu {
 
 using Deadline = std::chrono::system_clock::time_point;
 
-// What is asked before what.
+// The urgency of work, by which waiting threads are ordered: short work first, then priority, then deadline.
 struct Urgency {
-  // Work known to be short passes all other, whatever their priorities.
+  // Work that is known to be short goes before all other work, whatever the priorities.
   bool is_short = false;
-  int priority = 0;  // the higher first
+  int priority = 0;  // the higher goes first
   Deadline deadline = Deadline::max();
 
   bool operator==(const Urgency&) const = default;
 };
-// True where `a` goes before `b`; of equal ones the first to come.
+// Tells whether `a` goes before `b`. If neither is more urgent, the one that came first goes first.
 bool is_more_urgent(const Urgency& a, const Urgency& b);
 
-// Thread-safe. Must outlive its turns.
+// Thread-safe. It must outlive its turns.
 class Turns {
  public:
-  // Held until it is destroyed or assigned to; a default one is no turn.
+  // The right to use the queue, which is held until this is destroyed or assigned to. A default object holds none.
   class Turn {
    public:
     Turn() = default;
@@ -43,12 +44,12 @@ class Turns {
     std::unique_ptr<Turns, Release> turns_;
   };
 
-  // Of `patience` picks, the last goes to the one that has waited longest, so that none waits for ever.
+  // Every `patience`-th pick goes to the thread that has waited longest, so that none waits for ever.
   explicit Turns(std::uint64_t patience = DeviceProfile().patience) : patience_(patience) {}
 
-  // Waits for it. A thread that holds one must not ask for another.
+  // Waits for the turn and returns it. A thread that holds it must not ask for it again.
   Turn take(const Urgency& urgency);
-  // Threads in take().
+  // Returns the number of threads that wait in take().
   std::size_t waiting() const;
 
  private:
@@ -61,7 +62,7 @@ class Turns {
 
   const std::uint64_t patience_;
   mutable base::Mutex mutex_;
-  std::list<Waiter*> waiters_ ABSL_GUARDED_BY(mutex_);  // by arrival
+  std::list<Waiter*> waiters_ ABSL_GUARDED_BY(mutex_);  // in the order of arrival
   bool is_taken_ ABSL_GUARDED_BY(mutex_) = false;
   std::uint64_t picks_ ABSL_GUARDED_BY(mutex_) = 0;
 };

@@ -1,4 +1,4 @@
-// Private to this room: Vulkan-Hpp, and how its exceptions become statuses.
+// Includes Vulkan-Hpp, and turns its exceptions into statuses. Only files in gpu/ may include this header.
 #pragma once
 
 #include <absl/status/status.h>
@@ -9,6 +9,8 @@
 
 namespace isofield::gpu {
 
+// RESOURCE_EXHAUSTED if the device or the host is out of memory, else INTERNAL. `doing` says what has failed, as in
+// "creating a pipeline".
 inline absl::Status to_status(const vk::SystemError& error, const char* doing) {
   const std::string text = absl::StrCat("Vulkan, ", doing, ": ", error.what());
   const auto code = static_cast<vk::Result>(error.code().value());

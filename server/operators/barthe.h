@@ -1,4 +1,5 @@
-// Barthe's blend of positive fields, [G] eqs. 12 and 13: between two lines level curves are elliptical arcs.
+// Barthe is Barthe's blend of positive fields, [G] eqs. 12 and 13: its level curves between two lines are elliptical
+// arcs.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@ struct Barthe {
   static constexpr Traits kTraits{"barthe", Fields::kPositive, Arity::kFolded, true};
   static Barthe read(const v1::BartheBlend& message, base::FieldReader& in);
 
-  // Radians, within [0, pi/4]: the lines' angles from the f1 axis, and from the f2 axis.
+  // The angles of the two lines from the f1 axis and from the f2 axis, in radians within [0, pi/4].
   double theta1 = 0, theta2 = 0;
 
   OperandCount operand_count() const { return {1, kAnyNumber}; }
@@ -36,9 +37,9 @@ struct Barthe {
   }
   Interval bound(const Interval& a, const Interval& b) const;
 
-  // The level curve at level C lies around C (t2, t1) with semi-axes C (1 - t2) and C (1 - t1), where t = tan(theta).
-  // It is a quadratic in C, written in what C is above the greater field, so that nothing cancels where the lines are
-  // close to each other.
+  // The curve of level C lies around C (t2, t1) with semi-axes C (1 - t2) and C (1 - t1), where t = tan(theta). This
+  // makes a quadratic in C. It is solved for what C is above the greater field, so that nothing cancels if the lines
+  // are close to each other.
   template <class T>
   static Binary<T> by_tangents(const T& f1, const T& f2, double t1, double t2);
 };

@@ -1,4 +1,5 @@
-// Bernhardt's operator on positive fields: an interpolation between the clean union and Barthe's blend ([G] section 2).
+// Bernhardt is Bernhardt's operator on positive fields: an interpolation between the clean union and Barthe's blend
+// ([G] section 2).
 #pragma once
 
 #include "operators/barthe.h"

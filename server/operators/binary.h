@@ -1,5 +1,6 @@
-// The value of an operator of two operands with its partial derivatives. Operators are templates over the number:
-// double, or reference::Dual, which carries derivatives along (numbers need +, -, *, /, sqrt, pow and value_of).
+// Binary is the value of an operator of two operands with its partial derivatives. Operators are templates over the
+// number type: double, or reference::Dual, which carries derivatives along. A number type needs +, -, *, /, sqrt, pow
+// and value_of.
 #pragma once
 
 #include <cmath>
@@ -13,12 +14,13 @@ struct Binary {
   T g, g1, g2;
 };
 
-// Signed fields of nested and folded operators end here, where float32 nearly does, and are constant beyond.
+// Signed fields of nested and folded operators stay constant beyond this magnitude, which is close to the limit of
+// float32.
 inline constexpr double kMostField = 1e37;
 
 using base::value_of;
 
-// The same operator with its operands exchanged.
+// Returns the result of the same operator with its operands exchanged.
 template <class T>
 Binary<T> exchanged(const Binary<T>& b) {
   return {b.g, b.g2, b.g1};

@@ -11,8 +11,8 @@
 namespace isofield::operators {
 namespace {
 
-// The limits of 1 - p / (r1 r2) of a conic. It degenerates at p = r1 r2; where p = -1e14 r^2 it is nowhere further than
-// 7e-8 r from the union.
+// These are the limits of 1 - p / (r1 r2) of a conic. It degenerates at p = r1 r2; at p = -1e14 r^2 it is nowhere
+// further than 7e-8 r from the union.
 constexpr double kLeastTightness = 1e-9, kMostTightness = 1e14;
 
 }  // namespace
@@ -39,7 +39,8 @@ Opcode Bt2::opcode(Law) const {
 
 void Bt2::write(const Use&, Tables&, Float4* out) const {
   out[0] = {f32(term(0).range), f32(term(1).range), f32(tightness()), elimination.recorded()};
-  // The first two numbers of a term's record are those of a kLinear: what is left where one operand alone is.
+  // The first two numbers of a term's record are those of a kLinear, which takes the blend's place if pruning leaves
+  // one operand.
   for (std::uint32_t i = 0; i < 2; ++i) out[1 + i] = {f32(1 / weight(i)), 0, f32(weight(i)), 0};
 }
 
@@ -68,7 +69,7 @@ Spread Bt2::kept(std::size_t operand) const {
 
 int Bt2::lone_operand(const Interval& a, const Interval& b) const {
   if (elimination.is_on) return -1;
-  // The bounds of the blending region, [H] section 3.
+  // These are the bounds of the blending region, [H] section 3.
   const auto is_beyond = [](const Interval& x, const Term& tx, const Interval& y, const Term& ty) {
     const double left = tx.weight * (y.lo - ty.range), right = ty.weight * x.hi;
     return left >= right + base::kValueRoom * (std::abs(right) + std::abs(tx.weight * y.lo) + tx.weight * ty.range);

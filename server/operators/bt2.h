@@ -1,5 +1,6 @@
-// The conic blend of two signed fields with individual ranges, [H] eq. 4: the root h of H(x_1 - m_1 h, x_2 - m_2 h) =
-// 0, so that the zero set does not depend on the weights m_i.
+// Bt2 is the conic blend of two signed fields with individual ranges, [H] eq. 4. It is the root h of
+//   H(x_1 - m_1 h, x_2 - m_2 h) = 0,
+// so that the zero set does not depend on the weights m_i.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ struct Bt2 {
   static Bt2 read(const v1::Bt2& message, base::FieldReader& in);
 
   std::array<Term, 2> terms;
-  double conic = 0;  // p
+  double conic = 0;  // p of [H] eq. 4
   BulgeElimination elimination;
 
   OperandCount operand_count() const { return {2, 2}; }
@@ -39,14 +40,14 @@ struct Bt2 {
   Reach<T> reach(std::size_t operand) const {
     return {terms[operand].range, terms[operand].weight};
   }
-  // 1 - p / (r1 r2), positive: 1 is the circle or ellipse, and large the union.
+  // Returns 1 - p / (r1 r2), which is positive. It is 1 for the circle or ellipse, and large close to the union.
   double tightness() const { return 1 - conic / (terms[0].range * terms[1].range); }
 
   template <class T>
   Binary<T> unite(const T& x1, const T& x2) const {
     return blend(x1, x2, reach<T>(0), reach<T>(1), tightness());
   }
-  // The same with ranges and weights that follow an angle, where the operator's do.
+  // Returns the same with ranges and weights that follow an angle, if those of the operator do.
   template <class T>
   Binary<T> unite(const T& x1, const T& x2, const Angle<T>& angle) const {
     Reach<T> r1 = reach<T>(0), r2 = reach<T>(1);
@@ -56,15 +57,17 @@ struct Bt2 {
   Interval bound(const Interval& a, const Interval& b) const;
   Spread reached(std::size_t operand) const;
   Spread kept(std::size_t operand) const;
-  // The most that an operand's weight becomes, whatever the gradients.
+  // Returns the most that an operand's weight becomes, whatever the gradients.
   double most_weight_of(std::size_t operand) const;
-  // Returns the operand, 0 or 1, that alone makes the result, over its weight; or -1 where both may.
+  // Returns the operand, 0 or 1, that alone makes the result, which is then that operand over its weight, or -1 if both
+  // may.
   int lone_operand(const Interval& a, const Interval& b) const;
 
-  // A form without cancellation. With X_i = x_i / m_i and R_i = r_i / m_i it is the blend of weights 1; of p it needs
-  // only the tightness, so that a conic keeps its shape where the ranges follow an angle. The result depends on where
-  // X1 - X2 lies between -R2 and R1, beyond which one operand makes it alone: at s within ]0, 1[. There q1 + q2 = 1,
-  // off = q1 - q2, and rho is the root of the quadratic's discriminant over what it is at p = r1 r2.
+  // Returns the blend in a form without cancellation. With X_i = x_i / m_i and R_i = r_i / m_i it is the blend of
+  // weights 1. Instead of p it takes the tightness alone, so that a conic keeps its shape if the ranges follow an
+  // angle. The result depends on the place s within ]0, 1[ of X1 - X2 between -R2 and R1; beyond these ends one operand
+  // makes it alone. In between, q1 + q2 = 1, off = q1 - q2, and rho is the square root of the quadratic's discriminant,
+  // scaled so that it is 1 where the coefficient of h^2 is 0.
   template <class T>
   static Binary<T> blend(const T& x1, const T& x2, const Reach<T>& reach1, const Reach<T>& reach2, double tightness);
 };
@@ -86,11 +89,12 @@ Binary<T> Bt2::blend(const T& x1, const T& x2, const Reach<T>& reach1, const Rea
   const T q1 = share2 * part2, q2 = share1 * part1, off = T(0.0) - apart * per_whole;
   const T bend(2 / tightness), product = bend * part1 * part2;
   const T rho = sqrt(off * off + product);
-  // rho + off and rho - off, the lesser of them by their product.
+  // These are rho + off and rho - off. The lesser of them follows from their product, without cancellation.
   const T greater = rho + (value_of(off) < 0 ? T(0.0) - off : off), lesser = product / greater;
   const T &above = value_of(off) < 0 ? lesser : greater, &below = value_of(off) < 0 ? greater : lesser;
   const T per_root = T(1.0) / (T(1.0) + rho), scale = per_root / rho;
-  // Below either operand by what is the same; from the lesser one, whose part is the smaller.
+  // The result lies below either operand, and is the same from both. It is computed from the lesser operand, from which
+  // less is taken.
   const T g = value_of(apart) < 0 ? X1 - R1 * s1 * below * per_root : X2 - R2 * s2 * above * per_root;
   return {g, q1 * (bend * part1 + above) * scale * i1, q2 * (bend * part2 + below) * scale * i2};
 }

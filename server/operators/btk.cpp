@@ -20,7 +20,7 @@ Opcode Btk::opcode(Law) const {
 }
 
 void Btk::write(const Use& use, Tables&, Float4* out) const {
-  // The exponent of a super-elliptic blend stands first; here each operand has its own.
+  // The first number is the exponent of a super-elliptic blend; here each operand has its own.
   out[0] = {1, elimination.recorded(), 0, 0};
   for (std::uint32_t i = 0; i < use.operands; ++i) {
     out[1 + i] = {f32(1 / weight(i)), 0, f32(term(i).power), f32(term(i).range)};

@@ -1,5 +1,5 @@
-// The super-elliptic blend of signed fields with individual ranges, [H] eq. 5: the root h of
-// sum_i [(r_i - x_i + m_i h) / r_i]_+^p_i = 1.
+// Btk is the super-elliptic blend of signed fields with individual ranges, [H] eq. 5. It is the root h of
+//   sum_i [(r_i - x_i + m_i h) / r_i]_+^p_i = 1.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ struct Btk {
   static constexpr Traits kTraits{"btk", Fields::kSigned, Arity::kJoint, true};
   static Btk read(const v1::Btk& message, base::FieldReader& in);
 
-  std::vector<Term> terms;  // one an operand, or one for all
+  std::vector<Term> terms;  // one for each operand, or one for all
   BulgeElimination elimination;
 
   OperandCount operand_count() const { return joint_operand_count(terms.size(), elimination); }
@@ -49,15 +49,17 @@ struct Btk {
     return root(x, reach, powers);
   }
   Interval bound_all(const OperandMask& mask, const std::vector<Interval>& x) const;
-  // Operands that are beyond their range wherever the one that is left bounds the result drop out.
+  // Returns the operands that can make a difference. An operand drops out if it is beyond its range even at the largest
+  // value that the result can have.
   std::uint32_t active(const OperandMask& mask, const std::vector<Interval>& x) const;
   Spread reached(std::size_t operand) const;
   Spread kept(std::size_t operand) const;
-  // The most that an operand's weight becomes, whatever the gradients.
+  // Returns the most that an operand's weight becomes, whatever the gradients.
   double most_weight_of(std::size_t operand) const;
 
-  // The sum is convex and increasing in h and at least 1 at min x_i / m_i, so Newton's method from there falls to the
-  // root and never beyond it: no bracket is needed (the paper uses Regula Falsi). `powers` are p_i > 1.
+  // Finds the root h; the powers p_i must be above 1. The sum is convex and increasing in h and at least 1 at min x_i /
+  // m_i, so Newton's method from there falls to the root and never beyond it: no bracket is needed (the paper uses
+  // Regula Falsi).
   template <class T>
   static Joint<T> root(const std::vector<T>& x, const std::vector<Reach<T>>& reach, const std::vector<double>& powers);
 };
@@ -96,7 +98,7 @@ Joint<T> Btk::root(const std::vector<T>& x, const std::vector<Reach<T>>& reach, 
     if (!(next < h)) break;
     h = next;
   }
-  // A Newton step in T gives the root's derivatives, a second pass the partials with theirs.
+  // A Newton step in T gives the root's derivatives. A second pass gives the partials with theirs.
   r.g = T(h);
   for (int pass = 0; pass < 2; ++pass) {
     T excess(-1.0), total(0.0);

@@ -1,4 +1,4 @@
-// Barthe's clean union of positive fields, [G] eqs. 9 and 10: sharp on the surface, smooth off it.
+// Clean is Barthe's clean union of positive fields, [G] eqs. 9 and 10: sharp on the surface, smooth off it.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Clean {
   std::uint32_t record_size(std::uint32_t) const { return 1; }
   void write(const Use&, Tables&, Float4*) const {}
 
-  // At level C a quarter of a circle around (k(C), k(C)), of radius C - k(C).
+  // The curve of level C is a quarter of a circle around (k(C), k(C)), of radius C - k(C).
   template <class T>
   Binary<T> unite(const T& f1, const T& f2) const;
   Interval bound(const Interval& a, const Interval& b) const;
@@ -49,7 +49,7 @@ Binary<T> Clean::unite(const T& f1, const T& f2) const {
   using std::sqrt;
   if (value_of(f1) < value_of(f2)) return exchanged(unite(f2, f1));
   const double hi = value_of(f1), lo = value_of(f2);
-  // At the edge, where the arcs have no radius, and outside of them.
+  // The point lies outside of the arcs, or at the edge, where they have no radius.
   const double own = centre(hi).first;
   if (lo <= own || hi - own <= 1e-12 * hi) return {f1, T(1.0), T(0.0)};
   const double root = root_of(hi, lo < 0.5 ? std::sqrt(lo / 2) : 2 * lo * lo, [&](double c) {
@@ -57,7 +57,7 @@ Binary<T> Clean::unite(const T& f1, const T& f2) const {
     const double a = hi - k, b = std::max(lo - k, 0.0), m = std::hypot(a, b);
     return std::pair{c - k - m, 1 - k_c * (1 - (a + b) / m)};
   });
-  // A Newton step in T from the root gives its derivatives; the slope needs none of its own for that.
+  // A Newton step in T from the root gives its derivatives. The slope needs no derivatives of its own for that.
   T c = root;
   T slope = 1.0;
   for (int step = 0; step < 2; ++step) {

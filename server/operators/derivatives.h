@@ -1,4 +1,4 @@
-// The value of a function of one variable with its first two derivatives.
+// Curve is the value of a function of one variable with its first two derivatives.
 #pragma once
 
 namespace isofield::operators {

@@ -1,5 +1,5 @@
-// The first of fields of either law less the others: max(0, min(f1, 1 - f2)) of positive ones, max(f1, -f2) of signed
-// ones.
+// Difference is the operator that takes the other fields away from the first one: max(0, min(f1, 1 - f2)) for positive
+// fields, and max(f1, -f2) for signed ones.
 #pragma once
 
 #include "operators/binary.h"
@@ -21,12 +21,12 @@ struct Difference {
   OperandCount operand_count() const { return {2, kAnyNumber}; }
   bool is_ordered() const { return true; }
   bool may_crease() const { return true; }
-  // Of signed fields max(x1, -x2) = -min(-x1, x2): the union is the minimum.
+  // max(x1, -x2) = -min(-x1, x2) for signed fields: their union is the minimum.
   Opcode opcode(Law law) const;
   std::uint32_t record_size(std::uint32_t) const { return 1; }
   void write(const Use&, Tables&, Float4*) const {}
 
-  // The union of signed fields, of which the difference is made as of any other.
+  // Returns the union of signed fields. Their difference is made of it as that of any other kind.
   template <class T>
   Binary<T> unite(const T& x1, const T& x2) const {
     return value_of(x1) <= value_of(x2) ? Binary<T>{x1, T(1.0), T(0.0)} : Binary<T>{x2, T(0.0), T(1.0)};

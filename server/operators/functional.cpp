@@ -41,7 +41,7 @@ SampledCurve read_control_points(const v1::FunctionalBlend& m, base::FieldReader
   return {std::move(x), std::move(h)};
 }
 
-// |x1 - x2|.
+// Returns the interval of |x1 - x2|.
 Interval apart(const Interval& a, const Interval& b) {
   return {std::max({a.lo - b.hi, b.lo - a.hi, 0.0}), std::max(a.hi - b.lo, b.hi - a.lo)};
 }

@@ -1,4 +1,4 @@
-// Barthe's functional blend of signed fields, [G] eq. 6: min(x1, x2) - H(|x1 - x2|).
+// Functional is Barthe's functional blend of signed fields, [G] eq. 6: min(x1, x2) - H(|x1 - x2|).
 #pragma once
 
 #include "operators/binary.h"
@@ -14,8 +14,8 @@ class FieldReader;
 
 namespace isofield::operators {
 
-// The chain rule for a number without derivatives: of the number, a function's value there and its slope it returns the
-// value. Numbers that carry derivatives have a chain() of their own.
+// chain() applies the chain rule. It takes a number, a function's value there and its slope; for a number without
+// derivatives it returns the value. Numbers that carry derivatives have a chain() of their own.
 inline double chain(double, double value, double) {
   return value;
 }
@@ -24,7 +24,7 @@ struct Functional {
   static constexpr Traits kTraits{"functional", Fields::kSigned, Arity::kFolded, true};
   static Functional read(const v1::FunctionalBlend& message, base::FieldReader& in);
 
-  SampledCurve h;  // H, from x >= 0 on
+  SampledCurve h;  // H(x) for x >= 0
 
   OperandCount operand_count() const { return {1, kAnyNumber}; }
   bool is_ordered() const { return false; }
@@ -33,7 +33,7 @@ struct Functional {
   std::uint32_t record_size(std::uint32_t) const { return 1; }
   void write(const Use& use, Tables& tables, Float4* out) const;
 
-  // Where the fields are equal the partials are those of the side x1 < x2.
+  // If the fields are equal, the partials are those of the side x1 < x2.
   template <class T>
   Binary<T> unite(const T& x1, const T& x2) const {
     if (value_of(x2) < value_of(x1)) return exchanged(unite(x2, x1));
@@ -45,7 +45,8 @@ struct Functional {
   Interval bound(const Interval& a, const Interval& b) const;
   Spread reached(std::size_t operand) const;
   Spread kept(std::size_t operand) const;
-  // Returns the operand, 0 or 1, that is the least by more than H reaches, and so is the result; or -1 where none is.
+  // Returns the operand, 0 or 1, that is the lesser by more than H reaches, and so is the result, or -1 if there is
+  // none.
   int lone_operand(const Interval& a, const Interval& b) const;
 };
 

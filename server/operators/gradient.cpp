@@ -32,7 +32,7 @@ Silhouette read_sampled_silhouette(const base::FieldReader::Numbers& numbers, ba
     }
   }
   for (int i = 0; i <= last; ++i) {
-    // Everything is told at samples: the monotone cubic between them stays within their range.
+    // It is enough to check the samples, because the monotone cubic between them stays within their range.
     const double phi = std::numbers::pi / 2 * i / last;
     const double square = 1 / std::max(std::cos(phi), std::sin(phi));
     in.number(element_name("silhouette.samples", i), s[i], 0.5001 * square, square * (1 + 1e-9),
@@ -74,10 +74,11 @@ Silhouette read_silhouette(const v1::Silhouette& m, base::FieldReader& in) {
   }
 }
 
-// Close above the blend of the smooth silhouette at theta = 0, the most it is at any angle; high >= low.
+// Returns a number close above the blend of the smooth silhouette at theta = 0, which is the largest at any angle. It
+// needs high >= low.
 double most_of_blend(double high, double low) {
   if (high <= 0) return high;
-  // M(high, low) = high q(low / high). The profile is convex: its chords lie above it.
+  // M(high, low) = high q(low / high). The profile is convex, so that its chords lie above it.
   constexpr int kChords = 64;
   static const auto profile = [] {
     std::array<double, kChords + 2> q{};
@@ -144,7 +145,7 @@ Interval Gradient::bound(const Interval& a, const Interval& b, double growth) co
   const double least = std::max(a.lo, b.lo), high = std::max(a.hi, b.hi), low = std::min(a.hi, b.hi);
   // The smooth blend increases with either field.
   if (is_smooth(silhouette)) return {least, most_of_blend(high, low)};
-  // Between the maximum and the blend at theta = 0, whatever the angle.
+  // The blend lies between the maximum and the blend at theta = 0, whatever the angle.
   return {least, high + growth * low + base::kValueRoom};
 }
 

@@ -1,5 +1,5 @@
-// The gradient-based blend of positive fields, [G] sections 3 to 5: the angle between two gradients steers how much is
-// blended.
+// Gradient is the gradient-based blend of positive fields, [G] sections 3 to 5: the angle between two gradients steers
+// how much is blended.
 #pragma once
 
 #include "operators/kind.h"
@@ -20,7 +20,7 @@ struct Gradient {
 
   Opening opening = camel();
   Silhouette silhouette;
-  int volume = 0;  // samples a side of the volume that it is looked up in; 0: none
+  int volume = 0;  // samples a side of the volume that it is looked up in, or 0 for none
 
   OperandCount operand_count() const { return {1, kAnyNumber}; }
   bool is_ordered() const { return !silhouette.is_symmetric(); }
@@ -30,7 +30,7 @@ struct Gradient {
   void write(const Use& use, Tables& tables, Float4* out) const;
 
   VolumeKey volume_key() const { return volume == 0 ? VolumeKey{} : VolumeKey{silhouette, volume, nullptr}; }
-  // Exact, or as the volume that it is looked up in has it.
+  // Returns the exact blend, or the one that the volume gives if the operator is looked up in one.
   Blend blend(double f1, double f2, double theta) const;
   double growth(SilhouetteBounds& silhouettes) const;
   Interval bound(const Interval& a, const Interval& b, double growth) const;

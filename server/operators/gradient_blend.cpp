@@ -10,7 +10,8 @@
 namespace isofield::operators {
 namespace {
 
-// M(a, b) for a > 0, b of any sign (b <= 0: outside the blending region, where M = a).
+// Returns q of M(a, b) = a q(b / a), for a > 0 and b of any sign. If b <= 0, the point is outside the blending region,
+// and M = a.
 Curve clamped_profile(const Silhouette& s, Silhouette::Half half, double a, double b) {
   return b > 0 ? s.profile(std::min(b / a, 1.0), half) : Curve{1, 0, 0};
 }
@@ -20,8 +21,8 @@ Curve clamped_profile(const Silhouette& s, Silhouette::Half half, double a, doub
 Boundary boundary(double f, double t) {
   if (f >= 0.5) return {t / 2, 0, 0, 0.5, 0};
   // k = (8 t / (1 + t)^2) lambda^2
-  Curve lambda{f, 1, 0};               // in f
-  double lambda_t = 0, lambda_ft = 0;  // in t
+  Curve lambda{f, 1, 0};               // derivatives by f
+  double lambda_t = 0, lambda_ft = 0;  // derivatives by t
   if (f > t / 2) {
     const double x = 2 * (2 * f - t) / (1 - t);
     const double x_t = 2 * (2 * f - 1) / ((1 - t) * (1 - t));
@@ -39,14 +40,14 @@ Boundary boundary(double f, double t) {
 
 namespace {
 
-// f1 >= f2.
+// Returns the blend for f1 >= f2.
 Blend ordered_blend(double f1, double f2, double theta, const Silhouette& silhouette, Silhouette::Half half) {
   const double t = std::tan(theta);
   const Boundary at_max = boundary(f1, t);
   if (f2 <= 0 || f2 <= at_max.k) return {f1, 1, 0, 0, 0, 0, 0, 0, 0};
 
-  // F(C) = C - k - M(f1 - k, f2 - k) increases on [f1, k^-1(f2)]; with M = a for b <= 0 it is positive beyond, and so
-  // it is at 2 f1, since q < 2.
+  // F(C) = C - k - M(f1 - k, f2 - k) increases on [f1, k^-1(f2)]. With M = a for b <= 0 it is positive beyond, and it
+  // is positive at 2 f1, since q < 2.
   const double c = root_of(f1, 2 * f1, [&](double c) {
     const Boundary k = boundary(c, t);
     const double a = f1 - k.k, b = f2 - k.k;
@@ -68,7 +69,7 @@ Blend ordered_blend(double f1, double f2, double theta, const Silhouette& silhou
   r.g1 = m_a / slope;
   r.g2 = m_b / slope;
   r.gt = k.k_t * t_theta * rest / slope;
-  // Total derivatives of (g1, g2) with respect to one of f1, f2, theta, by the implicit function theorem.
+  // Returns the total derivatives of (g1, g2) with respect to one of f1, f2, theta, by the implicit function theorem.
   const auto second = [&](double a_v, double b_v, double k_v, double kf_v) {
     const double u_v = ((b_v - k_v) - u * (a_v - k_v)) / a;
     const double ma_v = -u * q.d2 * u_v, mb_v = q.d2 * u_v;

@@ -11,7 +11,7 @@ namespace {
 
 using Numbers = base::FieldReader::Numbers;
 
-// One of a list that has one number for each operand, one for all, or, where it may be empty, the default.
+// Returns number i of a list that has one number for each operand or one for all, or the default if the list is empty.
 double listed(const Numbers& numbers, std::size_t i, double otherwise) {
   if (numbers.empty()) return otherwise;
   return numbers.size() == 1 ? numbers[0] : i < static_cast<std::size_t>(numbers.size()) ? numbers[i] : otherwise;

@@ -1,4 +1,5 @@
-// What operators that take all their operands at once share.
+// This file has what the operators that take all their operands at once share: their result, the mask of their
+// operands, and the reading of their terms.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +12,25 @@
 
 namespace isofield::operators {
 
-// The value of an operator with its partial derivatives by each operand.
+// Joint is the value of an operator with its partial derivatives by each operand.
 template <class T>
 struct Joint {
   T g;
   std::vector<T> partials;
 };
 
-// The operands that pruning has left, a bit each, of those that the operator had.
+// OperandMask has a bit for each operand that pruning has left, of the `operands` that the operator had.
 struct OperandMask {
   std::uint32_t bits, operands;
   bool has(std::uint32_t operand) const { return (bits >> operand & 1) != 0; }
 };
 
-// As many operands as terms, or any number where there is one term for all; two where ranges follow an angle.
+// Returns how many operands an operator takes: as many as it has terms, any number if there is one term for all, or two
+// if ranges follow an angle.
 OperandCount joint_operand_count(std::size_t terms, const BulgeElimination& by_angle);
 
-// One term for each operand, or one for all. A list holds one number for each operand, one for all, or none where it
-// has a default, which ranges have not.
+// Reads one term for each operand, or one for all. A list holds one number for each operand, one for all, or none if it
+// has a default; ranges have no default.
 std::vector<Term> read_terms(const base::FieldReader::Numbers& ranges, const base::FieldReader::Numbers& powers,
                              const base::FieldReader::Numbers& weights, base::FieldReader& in);
 

@@ -1,4 +1,5 @@
-// The greatest of fields of either law: the union of positive ones ([G] eq. 7), the intersection of signed ones.
+// Max is the operator that takes the greatest of fields of either law: the union of positive fields ([G] eq. 7), and
+// the intersection of signed ones.
 #pragma once
 
 #include <algorithm>

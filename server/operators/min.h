@@ -1,4 +1,5 @@
-// The least of fields of either law: the intersection of positive ones, the union of signed ones.
+// Min is the operator that takes the least of fields of either law: the intersection of positive fields, and the union
+// of signed ones.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,7 @@ Curve kappa(double x) {
   if (x <= 0) return {0, 0, 0};
   if (x >= 1) return {1, 0, 0};
   // kappa = 1 - exp(1 - 1/s) with s = 1 - e, e = exp(1 - 1/x). Written with 1 - 1/s = -e/s, small values are right to
-  // the last bits, which a small exponent w makes visible ones.
+  // the last bits. A small exponent w makes such small values visible.
   const double e = std::exp(1 - 1 / x);
   const double s = -std::expm1(1 - 1 / x);
   if (e == 0) return {0, 0, 0};

@@ -1,5 +1,6 @@
-// The table of all kinds of operators, and a composition operator by itself, with its parameters and without operands:
-// what scenes, the catalogue, reference/ and tapes describe operators with.
+// This file has the table of all kinds of operators, the table of all opcodes, and Operator, which is a composition
+// operator by itself, with its parameters and without operands. Scenes, the catalogue, reference/ and tapes describe
+// operators with it.
 #pragma once
 
 #include <array>
@@ -29,7 +30,8 @@
 
 namespace isofield::operators {
 
-// Every kind of blend that a scene's node may be: its struct, and its field in the messages Node and Operator.
+// ISOFIELD_BLENDS lists every kind of operator that a scene's node may be: its struct, and its field in the messages
+// Node and Operator.
 #define ISOFIELD_BLENDS(ROW)        \
   ROW(Sum, sum)                     \
   ROW(Max, max)                     \
@@ -47,14 +49,14 @@ namespace isofield::operators {
   ROW(Bt2, bt2)                     \
   ROW(Btk, btk)                     \
   ROW(SmoothMin, smooth_min)
-// Those and the kinds that the catalogue alone holds; scenes use them by name.
+// ISOFIELD_OPERATORS adds the kinds that the catalogue alone holds. Scenes use them by name.
 #define ISOFIELD_OPERATORS(ROW) \
   ISOFIELD_BLENDS(ROW)          \
   ROW(Sampled, sampled)
 
-// Everything that an instruction of a tape may do with its operands: its name, the .glsl in shaders/lib/operators/ that
-// holds its function, how that function takes operands (Applies, below), what seams the result may have, and whether it
-// takes less time than a leaf.
+// ISOFIELD_OPCODES lists everything that an instruction of a tape may do with its operands: its name, the .glsl in
+// shaders/lib/operators/ that holds its function, how that function takes operands (Applies, below), what seams the
+// result may have, and whether it takes less time than a leaf.
 #define ISOFIELD_OPCODES(ROW)                                                    \
   ROW(Push, push, , kNothing, kNoSeam, kIsLight)                                 \
   ROW(Sum, sum, sum, kTwo, kNoSeam, kIsLight)                                    \
@@ -83,17 +85,19 @@ enum class Kind : std::uint8_t { ISOFIELD_OPERATORS(ISOFIELD_ENUMERATOR) kCount 
 enum class Opcode : std::uint8_t { ISOFIELD_OPCODES(ISOFIELD_ENUMERATOR) kCount };
 #undef ISOFIELD_ENUMERATOR
 
-// How the function of an opcode takes its operands.
+// Applies says how the function of an opcode takes its operands.
 enum class Applies {
-  kNothing,     // it has none: the operand is pushed
+  kNothing,     // there is no function: the operand is pushed
   kTwo,         // unite_NAME(a, b, record, angle)
   kSteeredTwo,  // unite_NAME(a, b, u, v, record): u and v have the directions that steer it
   kMany,        // unite_NAME(x, mask, record, angle)
-  kOne,         // apply_NAME(a, record), of the accumulator alone
+  kOne,         // apply_NAME(a, record); a is the accumulator
 };
-// kHasSeams: makes_seams_NAME(record) tells whether the surface may turn where both operands are equal by less than
-// pictures show as a crease. Other functions even their own seams out, or have none.
+// A seam is a curve along which the surface turns, where both operands are equal, by less than pictures show as a
+// crease. If an opcode is kHasSeams, makes_seams_NAME(record) tells whether its result may have seams. Other functions
+// even their own seams out, or have none.
 enum class Seams { kNoSeam, kHasSeams };
+// kIsLight marks opcodes that take less time than the evaluation of a leaf.
 enum class Weight { kIsLight, kIsHeavy };
 
 struct OpcodeTraits {
@@ -123,7 +127,7 @@ static_assert(std::variant_size_v<Parameters> == static_cast<std::size_t>(Kind::
 inline constexpr std::array kKinds{ISOFIELD_OPERATORS(ISOFIELD_TRAITS)};
 #undef ISOFIELD_TRAITS
 
-// The compiler refuses a kind that does not say of itself what its family asks for.
+// The assertions make the compiler refuse a kind that lacks what its family asks for.
 template <class K>
 constexpr bool is_complete() {
   static_assert(OperatorKind<K>);
@@ -138,10 +142,11 @@ constexpr bool is_complete() {
 ISOFIELD_OPERATORS(ISOFIELD_CHECK)
 #undef ISOFIELD_CHECK
 
+// Operator is a composition operator: the parameters of its kind, and its form.
 class Operator {
  public:
   Operator() = default;
-  // A difference is one whatever `form` says.
+  // A Difference has the form kDifference, whatever `form` says.
   template <class K>
   requires(!std::is_same_v<std::remove_cvref_t<K>, Operator>)
       Operator(K kind, Form form = Form::kUnion)  // NOLINT: a kind is an operator
@@ -152,38 +157,39 @@ class Operator {
 
   Kind kind() const { return static_cast<Kind>(parameters.index()); }
   const Traits& traits() const { return kKinds[parameters.index()]; }
-  // Calls f(parameters of the kind).
+  // Calls f with the parameters, whose type is the operator's kind.
   template <class F>
   decltype(auto) visit(F&& f) const {
     return std::visit(std::forward<F>(f), parameters);
   }
-  // The parameters of this kind, or null where the operator is of another.
+  // Returns the parameters if the operator is of the kind K, else null.
   template <class K>
   const K* as() const {
     return std::get_if<K>(&parameters);
   }
 
-  // Of all its operands at once, rather than folded over them.
+  // Returns whether the operator takes all its operands at once, rather than being folded over them.
   bool is_joint() const { return traits().arity == Arity::kJoint; }
-  // By the angle between two gradients, through an opening function.
+  // Returns whether the angle between two gradients steers the operator through an opening function.
   bool is_steered() const { return traits().arity == Arity::kSteered; }
   bool takes_either_law() const { return traits().fields == Fields::kEither; }
-  // The law of its fields, where the kind takes those of one.
+  // Returns the law of the operator's fields, if its kind takes fields of one law only.
   Law law() const { return traits().fields == Fields::kSigned ? Law::kSigned : Law::kPositive; }
-  // Whether its ranges follow the angle between two gradients (bulge_elimination.h).
+  // Returns whether the operator's ranges follow the angle between two gradients (bulge_elimination.h).
   bool has_angular_ranges() const;
-  // Whether the angle between its operands' gradients changes the result.
+  // Returns whether the angle between its operands' gradients changes the result.
   bool follows_angle() const { return is_steered() || has_angular_ranges(); }
   OperandCount operand_count() const;
-  // Whether it makes a difference which of two operands is the first.
+  // Returns whether the result depends on which of two operands is the first.
   bool is_ordered() const;
   bool may_crease() const;
   Opcode opcode(Law law) const;
-  // What an operand's field is divided by where it alone makes the result: 1 but for blends with weights.
+  // Returns what an operand's field is divided by if that operand alone makes the result. It is 1 for all but blends
+  // with weights.
   double weight(std::size_t operand) const;
-  // The opening of a steered operator, else null.
+  // Returns the opening of a steered operator, else null.
   const Opening* opening() const;
-  // Its size is 0 where the operator is looked up in no volume.
+  // Returns the key of the volume that the operator is looked up in. Its size is 0 if there is none.
   VolumeKey volume_key() const;
 };
 

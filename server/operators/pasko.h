@@ -1,4 +1,4 @@
-// Pasko's blend of signed fields, [G] eq. 5: the union of R-functions (r_union.h) with a displacement added.
+// Pasko is Pasko's blend of signed fields, [G] eq. 5: the union of R-functions (r_union.h) with a displacement added.
 #pragma once
 
 #include "operators/binary.h"
@@ -27,7 +27,7 @@ struct Pasko {
   std::uint32_t record_size(std::uint32_t) const { return 1; }
   void write(const Use& use, Tables& tables, Float4* out) const;
 
-  // Where both fields are 0 the union of R-functions has no gradient; 1, 1 is returned.
+  // The union of R-functions has no gradient where both fields are 0. The partials are 1 and 1 there.
   template <class T>
   Binary<T> unite(const T& x1, const T& x2) const {
     using std::sqrt;

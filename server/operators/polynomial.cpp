@@ -21,7 +21,7 @@ std::string literal(double x) {
   return text;
 }
 
-// Estrin's scheme: c0 + c1 s, c2 + c3 s, ... are joined by s^2, those by s^4, and so on.
+// Writes the sum by Estrin's scheme: c0 + c1 s, c2 + c3 s, ... are joined by s^2, those by s^4, and so on.
 std::string sum_by_pairs(const std::string& name, const Polynomial& p) {
   std::string code = "float " + name + "(float s) {\n";
   std::vector<std::string> sums;
@@ -56,7 +56,7 @@ Polynomial fit_polynomial(const std::function<double(double)>& function, double 
   std::vector<double> samples;
   for (std::size_t k = 0; k < n; ++k)
     samples.push_back(function(low + (high - low) * (0.5 + 0.5 * std::cos(angle(k)))));
-  // Chebyshev coefficients, each spread over the powers of s by T_j = 2 s T_(j-1) - T_(j-2).
+  // Each Chebyshev coefficient is spread over the powers of s by T_j = 2 s T_(j-1) - T_(j-2).
   Polynomial result(n, 0), before(n, 0), current(n, 0);
   for (std::size_t j = 0; j < n; ++j) {
     Polynomial next(n, 0);

@@ -10,7 +10,7 @@
 namespace isofield::operators {
 namespace {
 
-// The cubic through values and slopes at both ends of a cell, in an s that is `end` at the right one.
+// Returns the cubic through values and slopes at both ends of a cell, in an s that is `end` at the right one.
 CubicCell hermite(const Curve& left, const Curve& right, double width, double end = 1) {
   const double rise = right.v - left.v, dl = left.d1 * width, dr = right.d1 * width;
   return {static_cast<float>(left.v), static_cast<float>(dl / end),
@@ -30,7 +30,8 @@ ProfileTable tabulate(int cells, double range, const std::function<Curve(double)
   return table;
 }
 
-// The cells of one ramp of an opening: `per_unit` is by how much the place grows with alpha, negative on the left.
+// Appends the cells of one ramp of an opening. `per_unit` is how much the place grows with alpha, and is negative on
+// the left.
 void append_ramp(const Opening& opening, float origin, double per_unit, int per_octave, ProfileTable& table) {
   const auto node = [&](double place) {
     const Curve theta = opening.theta(origin + (place - kFirstPlace) / per_unit);
@@ -51,7 +52,7 @@ void append_ramp(const Opening& opening, float origin, double per_unit, int per_
 ProfileTable sampled_opening_table(const SampledCurve& samples) {
   const auto cells = static_cast<int>(samples.x().size()) - 1;
   const double step = std::numbers::pi / cells;
-  // 12 digits beside the 12 of a cell's number.
+  // The step has 12 binary digits, beside the 12 of a cell's number.
   int exponent = 0;
   const double digits = std::frexp(step, &exponent);
   const double rounded = std::ldexp(std::round(std::ldexp(digits, 12)), exponent - 12);
@@ -66,7 +67,7 @@ ProfileTable sampled_opening_table(const SampledCurve& samples) {
 
 Grading Grading::of(const Silhouette& silhouette) {
   if (silhouette.kind != Silhouette::Kind::kBulge) return {1};
-  // At x = 1 - d beside the fold w = (1 - K) d + K (2 - K) d^2.
+  // At x = 1 - d, beside the fold, w = (1 - K) d + K (2 - K) d^2.
   const double k = silhouette.k;
   return {std::min((1 - k) / (2 * std::sqrt(std::max(k * (2 - k), 1e-9))), 1.0)};
 }
@@ -91,7 +92,7 @@ ProfileTable silhouette_table(const Silhouette& silhouette) {
     const ProfileTable cells = tabulate(kSilhouetteCells, 1, [&](double z) {
       const Curve q = silhouette.profile(1 - grading.w(z), half);
       double slope = q.d1 * grading.slope(z);
-      // At the fold of a bulge q = 1 + K d.
+      // Beside the fold of a bulge, q = 1 + K d.
       if (z >= 1 && silhouette.kind == Silhouette::Kind::kBulge && silhouette.k > 0.5) {
         slope = -std::sqrt(silhouette.k / (2 - silhouette.k)) / grading.n();
       }
@@ -140,7 +141,7 @@ double silhouette_bound(const Silhouette& silhouette) {
       bound = std::max(bound, (silhouette.profile(u, half).v - 1) / u);
     }
   }
-  return bound * 1.02 + 1e-6;  // between samples
+  return bound * 1.02 + 1e-6;  // leaves room between samples
 }
 
 }  // namespace isofield::operators

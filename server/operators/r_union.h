@@ -1,4 +1,4 @@
-// The clean union of R-functions on signed fields, [G] eq. 8: x1 + x2 - sqrt(x1^2 + x2^2).
+// RUnion is the clean union of R-functions on signed fields, [G] eq. 8: x1 + x2 - sqrt(x1^2 + x2^2).
 #pragma once
 
 #include "operators/pasko.h"
@@ -12,7 +12,7 @@ class FieldReader;
 
 namespace isofield::operators {
 
-// It is Pasko's blend without a displacement, and shares what that has.
+// It is Pasko's blend (pasko.h) without a displacement, and uses its functions.
 struct RUnion {
   static constexpr Traits kTraits{"r_union", Fields::kSigned, Arity::kFolded, true};
   static RUnion read(const v1::RUnion& message, base::FieldReader& in);

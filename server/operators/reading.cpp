@@ -67,7 +67,7 @@ Opening read_opening(const v1::Opening& m, base::FieldReader& in) {
   for (bool s : stated) any |= s, all &= s;
   if (!m.samples().empty()) {
     if (any) in.refuse("opening.samples", "[stated]", "either samples or a preset and parameters, not both");
-    // The parameters stay those of no opening, so that equal samples make equal openings.
+    // The parameters stay 0, so that equal samples make equal openings.
     o = {};
     o.samples = SampledCurve::even(
         0, std::numbers::pi, read_samples("opening.samples", m.samples(), 0, 45, kRadians, "degrees within [0, 45]", in));

@@ -1,4 +1,4 @@
-// Parts of messages that several kinds of operators have in common. Refusals go to the reader that is given.
+// These functions read parts of messages that several kinds of operators have in common. They report refusals to `in`.
 #pragma once
 
 #include "base/field_reader.h"
@@ -11,20 +11,20 @@ class Opening;
 
 namespace isofield::operators {
 
-// `form`: a v1::Form.
+// Reads a form; `form` is a v1::Form.
 Form read_form(int form, base::FieldReader& in);
 
-// Returns radians of a stated angle within [0, 45] degrees.
+// Reads an angle in degrees within [0, 45] and returns it in radians.
 double read_tangent_angle(absl::string_view field, double degrees, base::FieldReader& in);
 
-// Returns radians, of the field `opening`.
+// Reads the field `opening` of a message and returns it with angles in radians.
 Opening read_opening(const v1::Opening& message, base::FieldReader& in);
 
-// The samples of a curve within [least, most], times `unit`.
+// Reads the samples of a curve within [least, most] and returns them times `unit`.
 std::vector<double> read_samples(absl::string_view field, const base::FieldReader::Numbers& numbers, double least,
                                  double most, double unit, absl::string_view expected, base::FieldReader& in);
 
-// "field[i]".
+// Returns the text "field[i]", which names an element in errors.
 std::string element_name(absl::string_view field, int i);
 
 }  // namespace isofield::operators

@@ -1,4 +1,4 @@
-// Ricci's blend of positive fields, [G] eq. 11: (f1^t + f2^t)^(1/t).
+// Ricci is Ricci's blend of positive fields, [G] eq. 11: (f1^t + f2^t)^(1/t).
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ struct Ricci {
   std::uint32_t record_size(std::uint32_t) const { return 1; }
   void write(const Use& use, Tables& tables, Float4* out) const;
 
-  // The larger field is taken out, so that no power under- or overflows.
+  // The larger field is factored out, so that no power underflows or overflows.
   template <class T>
   Binary<T> unite(const T& f1, const T& f2) const {
     using std::pow;

@@ -1,4 +1,4 @@
-// Roots of increasing functions of one variable.
+// root_of() finds roots of increasing functions of one variable.
 #pragma once
 
 #include <cmath>
@@ -6,9 +6,9 @@
 
 namespace isofield::operators {
 
-// The root within [low, high] of an increasing function to the last bit or so: Newton's method where it stays within
-// the bracket, bisection where it does not and at every fourth step, so that it ends whatever the function.
-// f(x) is a pair of value and slope; a slope of 0, infinity or NaN is allowed.
+// Returns the root within [low, high] of an increasing function, to about the last bit. It takes steps of Newton's
+// method if they stay within the bracket, and bisects if they do not and at every fourth step, so that it ends whatever
+// the function. f(x) returns a pair of value and slope; a slope of 0, infinity or NaN is allowed.
 template <class Function>
 double root_of(double low, double high, const Function& f) {
   double x = 0.5 * (low + high);

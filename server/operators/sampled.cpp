@@ -66,7 +66,8 @@ Opcode Sampled::opcode(Law) const {
 
 void Sampled::write(const Use& use, Tables& tables, Float4* out) const {
   out[0] = steered_record(opening, volume_word(use.volume_slot, samples->size), use, tables);
-  // The sign tells it from a volume of the gradient blend: it is homogeneous about the origin, that about (t/2, t/2).
+  // The sign tells this volume, which is homogeneous about the origin beyond its nodes, from a volume of the gradient
+  // blend, which is homogeneous about (t/2, t/2).
   out[0][3] = -out[0][3];
 }
 

@@ -1,4 +1,5 @@
-// An operator of positive fields that is given by samples of g(f1, f2, theta), steered as the gradient-based blend is.
+// Sampled is an operator of positive fields that is given by samples of g(f1, f2, theta), and steered as the
+// gradient-based blend is.
 #pragma once
 
 #include <memory>
@@ -16,7 +17,8 @@ class FieldReader;
 
 namespace isofield::operators {
 
-// Values of g on a lattice of (f1, f2, theta): f1 and f2 over [0, 1], theta over [0, pi/4]; f1 fastest.
+// SampledVolume has the values of g on a lattice of (f1, f2, theta): f1 and f2 over [0, 1], theta over [0, pi/4]. f1
+// varies fastest.
 struct SampledVolume {
   int size = 0;
   std::vector<float> values;  // size^3
@@ -38,7 +40,7 @@ struct Sampled {
 
   VolumeKey volume_key() const { return {{}, samples->size, samples.get()}; }
   Blend blend(double f1, double f2, double theta) const;
-  // The least c with g <= (1 + c) max(f1, f2) at every sample.
+  // Returns the least c with g <= (1 + c) max(f1, f2) at every sample.
   double growth(SilhouetteBounds& silhouettes) const;
   Interval bound(const Interval& a, const Interval& b, double growth) const;
 };

@@ -1,5 +1,5 @@
-// A function of one variable given by samples: the monotone cubic of Fritsch and Carlson (1980), flat at both ends and
-// constant beyond.
+// SampledCurve is a function of one variable given by samples: the monotone cubic of Fritsch and Carlson (1980), flat
+// at both ends and constant beyond.
 #pragma once
 
 #include <compare>
@@ -10,13 +10,13 @@
 
 namespace isofield::operators {
 
-// Compared by its samples; copies share them.
+// Curves are compared by their samples. Copies share the samples.
 class SampledCurve {
  public:
   SampledCurve() = default;
-  // x strictly increasing, as many as y, at least 2.
+  // The numbers in `x` increase strictly. There are as many as in `y`, and at least 2.
   SampledCurve(std::vector<double> x, std::vector<double> y);
-  // At even steps over [low, high].
+  // Makes a curve whose samples lie at even steps over [low, high].
   static SampledCurve even(double low, double high, std::vector<double> y);
 
   bool empty() const { return !samples_; }

@@ -10,13 +10,13 @@
 namespace isofield::operators {
 namespace {
 
-// The upper half y(x) of a silhouette: x within [0, 1], y >= x.
+// Returns the upper half y(x) of a silhouette, where y >= x, for x within [0, 1].
 Curve upper_half(const Silhouette& s, double x) {
   if (s.kind == Silhouette::Kind::kSmooth) {
     const Curve e = smooth_step_e(x);
     return {1 - e.v, -e.d1, -e.d2};
   }
-  // [G] eq. 31, its two cases in the right order: y = 1 - K exp(1 - 1/x) (1 - x).
+  // This is [G] eq. 31 with its two cases in the right order: y = 1 - K exp(1 - 1/x) (1 - x).
   const double e = x > 0 ? s.k * std::exp(1 - 1 / x) : 0;
   if (e == 0) return {1, 0, 0};
   const double x2 = x * x;
@@ -24,7 +24,7 @@ Curve upper_half(const Silhouette& s, double x) {
   return {1 - e * (1 - x), -e * slope, -e * (slope / x2 - 1 / x2 - 2 * (1 - x) / (x2 * x))};
 }
 
-// q = 1 / (s cos w) on the ray at the angle w = atan(u) from the half's axis.
+// Returns q = 1 / (s cos w) on the ray at the angle w = atan(u) from the half's axis.
 Curve sampled_profile(const SampledCurve& samples, double u, Silhouette::Half half) {
   const bool is_second = half == Silhouette::Half::kSecond;
   const double w = std::atan(u), cos2 = 1 / (1 + u * u);
@@ -70,7 +70,7 @@ Curve Silhouette::profile(double u, Half half) const {
     return std::pair{x - u * y.v, 1 - u * y.d1};
   });
   const Curve y = upper_half(*this, x);
-  // 0 only at the fold of a bulge with K = 1, where the profile ends with a vertical tangent.
+  // The denominator is 0 only at the fold of a bulge with K = 1, where the profile ends with a vertical tangent.
   const double denominator = std::max(1 - u * y.d1, 1e-6);
   const double x1 = y.v / denominator;
   const double x2 = (2 * y.v * y.d1 + u * y.v * y.d2 * x1) / (denominator * denominator);

@@ -19,7 +19,8 @@ void SmoothMin::write(const Use&, Tables&, Float4* out) const {
 }
 
 Interval SmoothMin::bound(const Interval& a, const Interval& b) const {
-  // It increases with either field. Where the result is near 0, what is subtracted rounds by more than the result says.
+  // The blend increases with either field. If the result is near 0, the term that is subtracted has a larger rounding
+  // error than the size of the result tells.
   const double room = base::kValueRoom * radius / 4;
   const Interval r = base::padded(unite(a.lo, b.lo).g, unite(a.hi, b.hi).g);
   return {r.lo - room, r.hi + room};

@@ -1,4 +1,4 @@
-// The quadratic smooth minimum of signed fields, with one radius:
+// SmoothMin is the quadratic smooth minimum of signed fields, with one radius:
 //   min(x1, x2) - radius / 4 h^2,  h = max(0, 1 - |x1 - x2| / radius)
 // (I. Quilez, "Smooth minimum"). As an intersection it is the smooth maximum, its dual.
 #pragma once
@@ -38,7 +38,8 @@ struct SmoothMin {
   Interval bound(const Interval& a, const Interval& b) const;
   Spread reached(std::size_t operand) const;
   Spread kept(std::size_t operand) const;
-  // Returns the operand, 0 or 1, that is the lesser by the radius and more, and so is the result; or -1.
+  // Returns the operand, 0 or 1, that is the lesser by at least the radius, and so is the result, or -1 if there is
+  // none.
   int lone_operand(const Interval& a, const Interval& b) const;
 };
 

@@ -11,7 +11,7 @@ namespace isofield::operators {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// At 45 degrees a blend is the sharp union; from here on it is sharper than cells show.
+// A blend that opens by 45 degrees is the sharp union. From this angle on it is sharper than cells show.
 constexpr double kSharp = 44 * kDegree;
 
 }  // namespace
@@ -33,7 +33,8 @@ std::uint32_t volume_word(std::uint32_t slot, int size) {
 }
 
 Interval volume_bound(const Interval& a, const Interval& b, int size, double growth) {
-  // Between nodes that are a step further; there between the maximum and what bounds them.
+  // The operator is interpolated between nodes that are at most a step further. Each node lies between the maximum and
+  // the bound that `growth` gives.
   const double high = std::max(a.hi, b.hi);
   const double step = std::max(high, 1.0) / (size - 1);
   return {std::max(std::max(a.lo, b.lo) - step, 0.0), (high + step) * (1 + growth) + base::kValueRoom};

@@ -1,4 +1,4 @@
-// What operators of positive fields share that are steered by the angle between two gradients.
+// These functions are shared by the operators of positive fields that the angle between two gradients steers.
 #pragma once
 
 #include <map>
@@ -10,10 +10,11 @@
 
 namespace isofield::operators {
 
-// Bounds of the silhouettes seen so far: each takes a few hundred evaluations.
+// SilhouetteBounds keeps the bounds of the silhouettes seen so far, because each takes a few hundred evaluations.
 using SilhouetteBounds = std::map<Silhouette, double>;
 
-// What makes the volumes of two operators the same: `samples` of those that are given by samples, else the others.
+// Two operators with equal keys have the same volume. `samples` identifies the volume of an operator that is given by
+// samples, `silhouette` and `size` that of others.
 struct SampledVolume;
 struct VolumeKey {
   Silhouette silhouette;
@@ -22,17 +23,17 @@ struct VolumeKey {
   auto operator<=>(const VolumeKey&) const = default;
 };
 
-// Whether the opening comes close to that of the sharp union where gradients differ by 30 to 150 degrees: there the
-// surface turns within less than a cell.
+// Returns whether the opening comes close to that of the sharp union where gradients differ by 30 to 150 degrees. The
+// surface then turns within less than a cell.
 bool is_sharp(const Opening& opening);
 
-// The record of a steered operator; `blend` says which silhouette or volume it takes.
+// Returns the record of a steered operator. `blend` says which silhouette or volume it takes.
 Float4 steered_record(const Opening& opening, std::uint32_t blend, const Use& use, Tables& tables);
 
-// What the device finds a volume by: the slot of its binding, and its size.
+// Returns the word that the device finds a volume by: the slot of its binding, and its size.
 std::uint32_t volume_word(std::uint32_t slot, int size);
 
-// The interval of an operator that is looked up in a volume of `size` nodes a side.
+// Returns bounds of an operator that is looked up in a volume of `size` nodes a side.
 Interval volume_bound(const Interval& a, const Interval& b, int size, double growth);
 
 }  // namespace isofield::operators

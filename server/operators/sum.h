@@ -1,4 +1,4 @@
-// The sum of positive fields, [G] eq. 3.
+// Sum is the operator that adds positive fields, [G] eq. 3.
 #pragma once
 
 #include "operators/binary.h"

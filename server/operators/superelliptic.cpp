@@ -20,7 +20,8 @@ Opcode Superelliptic::opcode(Law) const {
 
 void Superelliptic::write(const Use& use, Tables&, Float4* out) const {
   out[0] = {f32(exponent), elimination.recorded(), 0, 0};
-  // The base whose power is 1e12, and what float32 leaves of it as a part of it: the exponent multiplies that.
+  // The record has the base whose power is 1e12, and the relative error of that base in float32, because the exponent
+  // multiplies this error.
   const double deepest = std::pow(1e12, 1 / exponent);
   out[0][2] = f32(deepest);
   out[0][3] = f32(deepest / out[0][2] - 1);

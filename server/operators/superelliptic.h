@@ -1,4 +1,5 @@
-// The super-elliptic blend of signed fields, [G] eq. 4: 1 - sum_i [1 - x_i / r_i]_+^t, with [x]_+ = max(0, x).
+// Superelliptic is the super-elliptic blend of signed fields, [G] eq. 4:
+//   1 - sum_i [1 - x_i / r_i]_+^t, with [x]_+ = max(0, x).
 #pragma once
 
 #include <cmath>
@@ -23,8 +24,8 @@ struct Superelliptic {
   static constexpr Traits kTraits{"superelliptic", Fields::kSigned, Arity::kJoint, true};
   static Superelliptic read(const v1::SuperellipticBlend& message, base::FieldReader& in);
 
-  double exponent = 1;           // t
-  std::vector<Term> terms;       // of which the ranges count: one an operand, or one for all
+  double exponent = 1;           // t of [G] eq. 4
+  std::vector<Term> terms;       // only their ranges count: one for each operand, or one for all
   BulgeElimination elimination;  // Rockwood's ranges, r (1 - cos alpha) + omega r
 
   OperandCount operand_count() const { return joint_operand_count(terms.size(), elimination); }
@@ -49,13 +50,13 @@ struct Superelliptic {
     return r;
   }
   Interval bound_all(const OperandMask& mask, const std::vector<Interval>& x) const;
-  // All: the field is 1 beyond all ranges, not that of one operand.
+  // All operands stay active, because beyond all ranges the field is 1, and not that of one operand.
   std::uint32_t active(const OperandMask& mask, const std::vector<Interval>&) const { return mask.bits; }
   Spread reached(std::size_t operand) const;
   Spread kept(std::size_t operand) const;
 
-  // One operand's part, [1 - x/r]_+^t, with minus its derivative. Deep inside, where the power is above 1e12, it goes
-  // on straight: a power would leave the numbers.
+  // Bracket is one operand's part, [1 - x/r]_+^t, with minus its derivative. Deep inside, where the power is above
+  // 1e12, it goes on linearly, because the power would overflow.
   template <class T>
   struct Bracket {
     T value, fall;

@@ -1,4 +1,5 @@
-// The tables of silhouettes, openings and curves that a tape's operators read on the device. Operators share them.
+// Tables collects the tables of silhouettes, openings and curves that a tape's operators read on the device. Operators
+// with the same silhouette, opening or curve share its table.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +16,11 @@ namespace isofield::operators {
 
 class Tables {
  public:
-  // Tables are appended to `out`, which must outlive this.
+  // The tables are appended to `out`, which must outlive this object.
   explicit Tables(std::vector<base::Float4>& out) : out_(out) {}
 
-  // Each returns the place in `out` where the table begins. Bit 30 marks a silhouette whose two halves differ.
+  // Each function returns the place in `out` where the table begins, and appends it if it is new. Bit 30 marks a
+  // silhouette whose two halves differ.
   std::uint32_t silhouette(const Silhouette& s) {
     return find(silhouettes_, s, [&] { return silhouette_table(s); }) | (s.is_symmetric() ? 0 : 1u << 30);
   }

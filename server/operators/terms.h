@@ -1,4 +1,4 @@
-// What blends with an individual range for every operand ([H]) know of one operand.
+// A Term is what a blend with an individual range for every operand ([H]) knows of one operand.
 #pragma once
 
 #include <compare>
@@ -15,7 +15,7 @@ struct Term {
   auto operator<=>(const Term&) const = default;
 };
 
-// Of an operator's terms, one for each operand or one for all, that of this operand.
+// Returns the term of this operand. An operator has one term for each operand, or one for all.
 inline const Term& term_of(const std::vector<Term>& terms, std::size_t operand) {
   return terms[terms.size() == 1 ? 0 : operand];
 }

@@ -12,7 +12,7 @@ constexpr double kQuarterPi = std::numbers::pi / 4;
 
 using Numbers = std::array<double, 4>;
 
-// The interpolated node, and its slopes along f1, f2, theta.
+// Interpolated is the interpolated node with its slopes along f1, f2, theta.
 struct Interpolated {
   Numbers v{};
   std::array<Numbers, 3> slope{};
@@ -34,8 +34,8 @@ Interpolated interpolate(std::array<double, 3> at, int size, const VolumeNodes& 
     corners[c] = {n.g, n.g1, n.g2, n.gt};
   }
   if (cell[0] == cell[1]) {
-    // On the diagonal, where max and folds break, a cell is two prisms: the corner on the other side is what makes the
-    // interpolation linear on this one.
+    // A cell on the diagonal, where max and folds have an edge, is two prisms. The corner on the other side is replaced
+    // by the one that makes the interpolation linear on this side.
     for (const int c : {0, 4}) {
       const int other = s[0] >= s[1] ? 2 : 1;
       for (int i = 0; i < 4; ++i) corners[c + other][i] = corners[c][i] + corners[c + 3][i] - corners[c + 3 - other][i];
@@ -66,7 +66,7 @@ Blend blend_of(const Interpolated& at) {
 }
 
 Blend beyond_about_boundary(double f1, double f2, double theta, int size, const VolumeNodes& nodes) {
-  const double t = std::tan(theta), h = t / 2, h_t = (1 + t * t) / 2;  // by theta, as all here
+  const double t = std::tan(theta), h = t / 2, h_t = (1 + t * t) / 2;  // all derivatives here are by theta
   const double scale = (std::max(f1, f2) - h) / (1 - h), scale_t = h_t * (scale - 1) / (1 - h);
   const double p1 = h + (f1 - h) / scale, p2 = h + (f2 - h) / scale;
   const Blend b = blend_of(interpolate({p1, p2, theta}, size, nodes));
@@ -83,7 +83,7 @@ Blend beyond_about_boundary(double f1, double f2, double theta, int size, const 
   return r;
 }
 
-// For f1 >= f2: g = f1 G(1, f2 / f1).
+// Continues the operator for f1 >= f2 as g = f1 G(1, f2 / f1).
 Blend beyond_about_origin(const Blend& b, double f1, double p2) {
   Blend r;
   r.g = f1 * b.g;

@@ -1,5 +1,5 @@
-// A number with its derivatives with respect to the three coordinates of a point: forward automatic differentiation of
-// first order.
+// Dual is a number with its derivatives with respect to the three coordinates of a point. Formulas that are evaluated
+// with it yield their exact gradients (forward automatic differentiation of first order).
 #pragma once
 
 #include <cmath>
@@ -32,12 +32,12 @@ inline double value_of(const Dual& a) {
   return a.v;
 }
 
-// f(a) of a function with value f and derivative slope at a.
+// Returns f(a) for a function that has the value f and the derivative slope at a.
 inline Dual chain(const Dual& a, double f, double slope) {
   return {f, a.d * slope};
 }
 
-// The derivative at 0, which does not exist, is 0.
+// The derivative at 0 does not exist; 0 stands for it.
 inline Dual sqrt(const Dual& a) {
   if (a.v <= 0) return 0;
   const double root = std::sqrt(a.v);
@@ -51,7 +51,7 @@ inline Dual atan2(const Dual& y, const Dual& x) {
   return {std::atan2(y.v, x.v), y.d * (x.v / square) - x.d * (y.v / square)};
 }
 
-// a >= 0; 0 at 0, with the derivative that an exponent above 1 has there.
+// Requires a >= 0. The result at 0 is 0 with the derivative 0, which is right for exponents above 1.
 inline Dual pow(const Dual& a, double exponent) {
   if (a.v <= 0) return 0;
   return chain(a, std::pow(a.v, exponent), exponent * std::pow(a.v, exponent - 1));

@@ -14,7 +14,7 @@ using blobtree::NodeKind;
 
 Primitive place(const blobtree::Primitive& p, const Affine& to_world) {
   const Affine frame = to_world.after(p.frame);
-  // The reader refuses singular transforms; a product of many may still underflow, to a primitive that is nowhere.
+  // The reader refuses singular transforms, but a product of many may still underflow. Such a primitive is nowhere.
   const std::optional<Affine> inverse = frame.inverse(), own = p.frame.inverse();
   if (!inverse || !own) return {p.shape, 0, p.law, Affine::scale({}), {}, {}};
   return {p.shape, p.range, p.law, {inverse->linear, {}}, frame.offset, {own->linear, {}}};
@@ -23,7 +23,8 @@ Primitive place(const blobtree::Primitive& p, const Affine& to_world) {
 }  // namespace
 
 Evaluator::Evaluator(const blobtree::Scene& scene) : nodes_(scene.nodes) {
-  // A node on the way: the walk keeps its own stack, since trees may be far deeper than the call stack.
+  // A node on the way from the root. The walk keeps a stack of its own, since a tree may be far deeper than the call
+  // stack allows.
   struct Visit {
     std::uint32_t node;
     Affine to_world;
@@ -60,7 +61,7 @@ Evaluator::Evaluator(const blobtree::Scene& scene) : nodes_(scene.nodes) {
 }
 
 FieldState Evaluator::state(const dvec3& point) const {
-  // As on the device, where coordinates beyond would overflow when squared.
+  // The device clamps coordinates in the same way, since the squares of larger ones would overflow.
   static constexpr double kFarthest = 1e10;
   const auto near = [](double x) { return std::clamp(x, -kFarthest, kFarthest); };
   const dvec3 p{near(point.x), near(point.y), near(point.z)};

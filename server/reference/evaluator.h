@@ -1,6 +1,6 @@
-// The slow, obvious evaluator of a Blob-tree in double precision: the oracle of the tests, and a debugging mode. It
-// walks the scene itself, so that it checks the compiler as well as the device, and keeps every node's derivatives in
-// the node's own frame: a transform of f yields f(T^-1 p), whatever stands below.
+// Evaluates a Blob-tree slowly and simply, in double precision. The tests compare the device with it. It walks the
+// scene and not its tape, so that it checks the compiler as well as the device. Derivatives are kept in the own frame
+// of each node: a transform T of a field f yields f(T^-1 p), whatever the nodes below are.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,36 @@
 
 namespace isofield::reference {
 
+// The field at a point.
 struct Sample {
   double value = 0;
-  // The derivative of `value` (operators note, section 2.2). 0 where there is none: at centres, axes and medial
-  // surfaces of shapes. Where operands of max, min or difference are equal, the first one's.
+  // The derivative of `value`. It is 0 where there is no derivative: at centres, axes and medial surfaces of shapes. If
+  // the operands of max, min or difference are equal, it is that of the first operand.
   blobtree::dvec3 gradient;
 };
 
-// Immutable once constructed: any number of threads may evaluate at once. Values and gradients are finite everywhere.
-// Whether a point is close to a crease is told by tests/support/smoothness.h, from the gradients around it.
+// An evaluator does not change once it is constructed, so any number of threads may use it at once. Values and
+// gradients are finite everywhere. To find out whether a point is close to a crease, use tests/support/smoothness.h,
+// which compares the gradients around it.
 class Evaluator {
  public:
-  // Copies what it needs of `scene`. Takes memory in proportion to the nodes with shared ones counted at every use.
+  // Copies what it needs of `scene`. It takes memory in proportion to the number of nodes, where a shared node counts
+  // once for each use.
   explicit Evaluator(const blobtree::Scene& scene);
 
   Sample evaluate(const blobtree::dvec3& p) const;
   double value(const blobtree::dvec3& p) const { return evaluate(p).value; }
-  // With the steering vector and its Jacobian.
+  // Returns the field with its gradient, and the steering vector with its Jacobian.
   FieldState state(const blobtree::dvec3& p) const;
 
  private:
-  // One use of a node, after its children: a primitive pushes its state, an operator of k children folds the last k.
+  // One use of a node. Steps lie in an order in which children come before their parents: the step of a primitive
+  // pushes its state on a stack, and that of a node with k children replaces the last k states by one.
   struct Step {
     std::uint32_t node;
     std::uint32_t children = 0;
-    std::uint32_t primitive = 0;  // in primitives_
-    std::uint32_t transform = 0;  // in inverses_
+    std::uint32_t primitive = 0;  // index in primitives_
+    std::uint32_t transform = 0;  // index in inverses_
     double length = 0;            // OperatorUse::length
   };
 

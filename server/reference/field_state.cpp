@@ -13,9 +13,9 @@ namespace {
 using blobtree::dvec3;
 using operators::Form;
 
-// |steering * length|^2 below which a steering vector counts as (nearly) null.
+// A steering vector counts as nearly null if |steering * length|^2 is below this.
 constexpr double kNullBelow = 1e-3;
-// ... and where it does so wholly: its weight would be 3e-74.
+// It counts as null if the square is below this; its weight would be 3e-74.
 constexpr double kNull = 1e-40;
 
 DualVec3 scaled(const DualVec3& v, const Dual& s) {
@@ -33,12 +33,12 @@ FieldState minimum(const FieldState& a, const FieldState& b) {
   return a.field.v <= b.field.v ? a : b;
 }
 
-// An operator of two fields from its value and partials.
+// Returns the result of an operator of two fields, given its value and its partial derivatives.
 FieldState joined(const FieldState& a, const FieldState& b, const operators::Binary<Dual>& o) {
   return {o.g, scaled(a.steering, o.g1) + scaled(b.steering, o.g2)};
 }
 
-// A steering vector as the node's frame sees it.
+// Returns a steering vector in the node's frame.
 DualVec3 in_frame(const OperatorUse& use, const DualVec3& v) {
   if (!use.frame) return v;
   const blobtree::Affine::LowerTriangle& l = *use.frame;
@@ -46,7 +46,7 @@ DualVec3 in_frame(const OperatorUse& use, const DualVec3& v) {
           v.z * Dual(l[5])};
 }
 
-// Where an operator of signed fields would leave float32 the field is constant, as it is on the device.
+// Makes a signed field constant where it, or its gradient, would leave the range of float32. The device does the same.
 FieldState bounded(const FieldState& a) {
   const auto largest = [](const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
   constexpr double kMost = operators::kMostField;
@@ -55,8 +55,8 @@ FieldState bounded(const FieldState& a) {
   return {std::clamp(a.field.v, -kMost, kMost), {}};
 }
 
-// The opening angle with its derivatives: theta(alpha), drawn to theta_min where a steering vector vanishes
-// ([G] section 7). Drawn in tan(theta), which is what the operator uses.
+// Returns the opening angle with its derivatives. It is theta(alpha), and goes to theta_min where a steering vector
+// vanishes ([G] section 7). The interpolation is between tangents, since the operator uses tan(theta).
 Dual opening_angle(const OperatorUse& use, const operators::Opening& opening, const DualVec3& a, const DualVec3& b) {
   const double least = opening.theta_min();
   const Dual square(use.length * use.length);
@@ -73,7 +73,7 @@ Dual opening_angle(const OperatorUse& use, const operators::Opening& opening, co
   return chain(t, std::atan(t.v), 1 / (1 + t.v * t.v));
 }
 
-// A kind that is steered through an opening.
+// Applies an operator that follows an opening function.
 template <class K>
 FieldState steer(const K& kind, const OperatorUse& use, const FieldState& a, const FieldState& b) {
   const Dual theta = opening_angle(use, kind.opening, in_frame(use, a.steering), in_frame(use, b.steering));
@@ -85,8 +85,8 @@ FieldState steer(const K& kind, const OperatorUse& use, const FieldState& a, con
   return {{g.g, f1 * g.g1 + f2 * g.g2 + theta.d * g.gt}, scaled(a.steering, g1) + scaled(b.steering, g2)};
 }
 
-// The angle between the steering vectors of two signed fields: its cosine, 0 where one of them vanishes, and the ratio
-// of their lengths, as operators::eliminate_bulge() wants it.
+// Returns the angle between the steering vectors of two signed fields in the form that operators::eliminate_bulge()
+// takes: its cosine, which is 0 if one of them vanishes, and the ratio of their lengths.
 operators::Angle<Dual> angle_between(const OperatorUse& use, const FieldState& a, const FieldState& b) {
   const DualVec3 u = in_frame(use, a.steering), v = in_frame(use, b.steering);
   const Dual n1 = dot(u, u), n2 = dot(v, v);
@@ -99,10 +99,10 @@ operators::Angle<Dual> angle_between(const OperatorUse& use, const FieldState& a
   return {cosine, ratio};
 }
 
-// Unions of two operands in their order.
+// Returns the union of two operands. Their order matters.
 FieldState unite(const OperatorUse& use, const FieldState& a, const FieldState& b) {
   return use.op->visit([&]<class K>(const K& kind) -> FieldState {
-    // A positive field of 0 leaves the other untouched. Operators of either law do so by themselves.
+    // A positive field of 0 leaves the other one unchanged. Operators for both laws do this by themselves.
     if constexpr (K::kTraits.fields == operators::Fields::kPositive) {
       if (a.field.v <= 0) return b;
       if (b.field.v <= 0) return a;
@@ -110,7 +110,7 @@ FieldState unite(const OperatorUse& use, const FieldState& a, const FieldState& 
     if constexpr (operators::IsSteered<K>) {
       return steer(kind, use, a, b);
     } else if constexpr (operators::IsJoint<K>) {
-      return a;  // unite_all() is for these
+      return a;  // never reached, since combine() gives these to unite_all()
     } else if constexpr (requires(operators::Angle<Dual> angle) { kind.unite(a.field, b.field, angle); }) {
       return bounded(joined(a, b, kind.unite(a.field, b.field, angle_between(use, a, b))));
     } else {
@@ -120,7 +120,7 @@ FieldState unite(const OperatorUse& use, const FieldState& a, const FieldState& 
   });
 }
 
-// All operands at once, in their order.
+// Returns the union of all operands at once, for operators that are not folded over pairs.
 FieldState unite_all(const OperatorUse& use, const std::vector<FieldState>& x) {
   std::vector<Dual> fields;
   for (const FieldState& s : x) fields.push_back(s.field);
@@ -136,12 +136,12 @@ FieldState unite_all(const OperatorUse& use, const std::vector<FieldState>& x) {
   return bounded(r);
 }
 
-// 1 - f of a positive field, -f of a signed one.
+// Returns the complement: 1 - f for a positive field, -f for a signed one.
 FieldState complement(const OperatorUse& use, const FieldState& a) {
   return {Dual(use.law == operators::Law::kSigned ? 0 : 1) - a.field, scaled(a.steering, -1)};
 }
 
-// What is left of a positive complement: 0 where it would be negative.
+// Replaces a positive field that is negative by 0, as a complement may be.
 FieldState clamped(const OperatorUse& use, const FieldState& a) {
   return use.law == operators::Law::kPositive && a.field.v <= 0 ? FieldState{} : a;
 }
@@ -192,13 +192,14 @@ FieldState combine(const OperatorUse& use, const std::vector<FieldState>& operan
         continue;
       }
       if (form == Form::kDifference && b.field.v <= 0 && r.field.v < 1) continue;
-      // The union of complements is the greatest of them where one is not positive.
+      // Neither complement is positive here. The union of the two is then the larger one, so the result is the smaller
+      // operand.
       if (form == Form::kIntersection && r.field.v >= 1 && b.field.v >= 1) {
         r = minimum(r, b);
         continue;
       }
     }
-    // Clamped: beside a complement that is positive, one that is not is as good as 0.
+    // If one complement is positive and the other is not, the other counts as 0.
     const FieldState first = clamped(use, complement(use, r));
     const FieldState second = form == Form::kIntersection ? clamped(use, complement(use, b)) : b;
     r = clamped(use, complement(use, unite(use, first, second)));
@@ -208,7 +209,7 @@ FieldState combine(const OperatorUse& use, const std::vector<FieldState>& operan
 
 FieldState placed(const FieldState& child, const blobtree::Affine& inverse) {
   const auto& rows = inverse.linear;
-  // A derivative by the child's coordinates q = A^-1 p becomes one by p.
+  // Turns a derivative with respect to the child's coordinates q = A^-1 p into one with respect to p.
   const auto by_p = [&](const dvec3& d) { return rows[0] * d.x + rows[1] * d.y + rows[2] * d.z; };
   const auto moved = [&](const Dual& a) { return Dual(a.v, by_p(a.d)); };
   const DualVec3 s{moved(child.steering.x), moved(child.steering.y), moved(child.steering.z)};
@@ -219,7 +220,8 @@ FieldState placed(const FieldState& child, const blobtree::Affine& inverse) {
 }
 
 FieldState soften(const FieldState& a, double range) {
-  // w and w' of the law of primitives, as functions of the field.
+  // These are the first and second derivatives of the falloff of primitives (blobtree/primitives/falloff.h), as a
+  // function of the field.
   const double slope = (1 - blobtree::kR0) / range;
   const double r = std::clamp(blobtree::kR0 + slope * a.field.v, 0.0, 1.0), v = 1 - r * r;
   const bool is_inner = r > 0 && r < 1;

@@ -1,5 +1,5 @@
-// A number with its first and second derivatives with respect to the three coordinates of a point: forward automatic
-// differentiation of second order. What distances of primitives and their falloff are evaluated with.
+// Jet is a number with its first and second derivatives with respect to the three coordinates of a point (forward
+// automatic differentiation of second order). The distances and the falloff of primitives are evaluated with it.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct Jet {
   Jet() = default;
   Jet(double value) : v(value) {}  // NOLINT: constants mix with jets as numbers do
 
-  // f(a, b) of a function with these partial derivatives at (a, b).
+  // Returns f(a, b) for a function that has the value f and these partial derivatives at (a, b).
   static Jet chain(const Jet& a, const Jet& b, double f, double fa, double fb, double faa, double fab, double fbb) {
     Jet r(f);
     for (int i = 0; i < 3; ++i) {
@@ -37,7 +37,8 @@ inline double value_of(const Jet& a) {
   return a.v;
 }
 
-// The derivatives at 0, which do not exist, are 0; so close to 0 that the third power of the root would vanish, too.
+// The derivatives at 0 do not exist; 0 stands for them. The same holds so close to 0 that the third power of the root
+// would vanish.
 inline Jet sqrt(const Jet& a) {
   if (a.v <= 1e-60) return std::sqrt(a.v > 0 ? a.v : 0);
   const double root = std::sqrt(a.v);
@@ -46,7 +47,7 @@ inline Jet sqrt(const Jet& a) {
 inline Jet abs(const Jet& a) {
   return a.v < 0 ? Jet(0.0) - a : a;
 }
-// Where both are equal the first is taken.
+// If both are equal, the first one is taken.
 inline Jet max(const Jet& a, const Jet& b) {
   return a.v >= b.v ? a : b;
 }

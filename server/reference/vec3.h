@@ -1,4 +1,5 @@
-// Vectors of numbers that carry derivatives. GLM takes built-in floating-point types alone.
+// Vectors of numbers that carry derivatives, such as Dual and Jet. GLM cannot hold these, since it takes only built-in
+// floating-point types.
 #pragma once
 
 #include <cmath>

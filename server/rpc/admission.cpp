@@ -12,10 +12,10 @@ namespace {
 
 constexpr char kRetryPayload[] = "isofield/retry-after-ms";
 
-// After so long, in seconds of work, a request that has ended counts a third in the estimate.
+// The estimate forgets: after this many further seconds of work, a request that has ended counts only a third (1 / e).
 constexpr double kMemorySeconds = 10;
 
-// A request without points is some work, too.
+// Returns the size of the work. A request counts as one point more than it has, since one without points is work, too.
 double work_of(std::uint64_t requests, std::uint64_t points) {
   return static_cast<double>(requests) + static_cast<double>(points);
 }
@@ -54,7 +54,7 @@ bool Admission::has_room_for(std::uint64_t points) const {
 }
 
 absl::Status Admission::refusal() const {
-  // The time after which what is at work now is done, as far as one can tell.
+  // This is an estimate of the time after which all present work is done.
   const double seconds = recent_seconds_ / std::max(recent_work_, 1.0) * work_of(requests_, points_);
   const double ms = std::clamp(std::ceil(1e3 * seconds), 1.0, 10'000.0);
   absl::Status status = absl::ResourceExhaustedError(

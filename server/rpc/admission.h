@@ -1,4 +1,4 @@
-// Decides how many requests may be at work at once, and refuses the others.
+// Limits how many requests, and how much work in all, the server takes on at once, and refuses further ones.
 #pragma once
 
 #include <absl/status/status.h>
@@ -15,15 +15,15 @@
 namespace isofield::rpc {
 
 struct AdmissionLimits {
-  // The most requests, and points of these, that may wait or run. Beyond either limit a further request is refused, but
-  // never for its points where the others have none.
+  // The most requests that may wait or run, and the most points that they may have together. A further request beyond
+  // either limit is refused, but never for its points if the others have none.
   std::uint64_t max_requests = 1;
   std::uint64_t max_points = 1;
-  const char* flags = "";  // of the command line, which refusals name
+  const char* flags = "";  // the options of the command line that set the limits; refusals name them
 };
 
-// Counts the requests that are at work and their points. Points are what the size of the work is estimated by: points
-// of a batch or a grid, rays, rows, or cells of a mesh. Thread-safe; must outlive its tickets.
+// Counts the requests that are at work and their points. A request's points are an estimate of its work: points of a
+// batch or a grid, rays, rows, or cells of a mesh. Thread-safe; must outlive its tickets.
 class Admission {
  public:
   using Clock = std::function<std::chrono::steady_clock::time_point()>;
@@ -31,7 +31,7 @@ class Admission {
   explicit Admission(const AdmissionLimits& limits, Clock now = std::chrono::steady_clock::now)
       : limits_(limits), now_(std::move(now)) {}
 
-  // The place of one request, which is held until this is destroyed or assigned to; a default one is no place.
+  // The place that one request holds, until the ticket is destroyed or assigned to. A default ticket holds no place.
   class Ticket {
    public:
     Ticket() = default;
@@ -47,7 +47,8 @@ class Admission {
       if (admission_) admission_->release(points_);
     }
 
-    // Adds points of the request, once they are known. RESOURCE_EXHAUSTED: as of admit().
+    // Adds points of the request when they are known. RESOURCE_EXHAUSTED: the points are beyond the limit, and the
+    // ticket keeps what it had; see admit(). FAILED_PRECONDITION: the ticket holds no place.
     absl::Status add(std::uint64_t points);
 
    private:
@@ -58,9 +59,10 @@ class Admission {
     std::uint64_t points_ = 0;
   };
 
-  // RESOURCE_EXHAUSTED: the request is beyond the limits; the status has retry_after_ms().
+  // Admits a request. RESOURCE_EXHAUSTED: it is beyond the limits; retry_after_ms() of the status says when to try
+  // again.
   absl::StatusOr<Ticket> admit(std::uint64_t points = 0);
-  // The same for a request that is never refused, since another limit bounds how many there are of its kind.
+  // Counts a request without ever refusing it, for kinds of requests whose number another limit bounds.
   Ticket count(std::uint64_t points);
 
  private:
@@ -72,13 +74,16 @@ class Admission {
   const AdmissionLimits limits_;
   const Clock now_;
   base::Mutex mutex_;
-  std::uint64_t requests_ ABSL_GUARDED_BY(mutex_) = 0, points_ ABSL_GUARDED_BY(mutex_) = 0;  // at work
-  // Work that ended lately and the time it took, the older the less; for the estimate of when to try again.
+  std::uint64_t requests_ ABSL_GUARDED_BY(mutex_) = 0, points_ ABSL_GUARDED_BY(mutex_) = 0;  // those at work
+  // The work that has ended and the time it took, where older work counts less. The estimate of when to try again needs
+  // their ratio.
   double recent_seconds_ ABSL_GUARDED_BY(mutex_) = 0, recent_work_ ABSL_GUARDED_BY(mutex_) = 0;
-  std::chrono::steady_clock::time_point busy_since_ ABSL_GUARDED_BY(mutex_);  // or since the last request ended
+  // The time at which the work began, or at which the last request ended if that is later.
+  std::chrono::steady_clock::time_point busy_since_ ABSL_GUARDED_BY(mutex_);
 };
 
-// After this many milliseconds a request that was refused by admission may be sent again. Nothing for other statuses.
+// Returns the number of milliseconds after which a client may send a request again that admission has refused with this
+// status. Returns nothing for any other status.
 std::optional<std::int64_t> retry_after_ms(const absl::Status& status);
 
 }  // namespace isofield::rpc

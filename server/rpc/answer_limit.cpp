@@ -8,7 +8,8 @@
 namespace isofield::rpc {
 namespace {
 
-// Bytes that are set aside for a message's tags, lengths, places and a shape of four numbers; these take at most 94.
+// A message sets aside so many bytes for its tags, its lengths, its place in the answer and a shape of four numbers.
+// These take at most 94.
 constexpr std::uint64_t kFraming = 128;
 constexpr std::uint64_t kLeastStreamBytes = 64u << 10;
 // The size of the largest message that protocol buffers allow.

@@ -31,13 +31,13 @@ double milliseconds(Clock::duration d) {
   return std::chrono::duration<double, std::milli>(d).count();
 }
 
-// True for methods whose requests and answers gRPC reads and writes as messages. Evaluate and EvaluateStream handle
-// bytes, on whichever thread is free, and fill in their notes themselves.
+// Tells whether gRPC reads and writes the requests and answers of a method as messages. Evaluate and EvaluateStream
+// handle bytes, on whichever thread is free, and fill in their notes themselves.
 bool is_of_messages(absl::string_view method) {
   return !absl::EndsWith(method, "/Evaluate") && !absl::EndsWith(method, "/EvaluateStream");
 }
 
-// Notes the scene that a request is about, or else its field "name", and how many points or rays it asks for.
+// Notes which scene a request is about, or else its field "name", and how many points or rays it asks for.
 void note_request(const Message& request, CallNotes& notes) {
   const google::protobuf::Reflection& reflection = *request.GetReflection();
   std::vector<const FieldDescriptor*> fields;
@@ -107,8 +107,8 @@ std::string CallNotes::text() const {
   return text;
 }
 
-// Lives from the arrival of a call to its end. If its method is one of messages, everything happens on the thread that
-// handles the call.
+// The interceptor of one call, which lives from the call's arrival to its end. If gRPC handles the method's messages,
+// all functions run on the thread that handles the call.
 class CallLog::Call final : public grpc::experimental::Interceptor {
  public:
   Call(CallLog& log, grpc::experimental::ServerRpcInfo& info)
@@ -121,7 +121,7 @@ class CallLog::Call final : public grpc::experimental::Interceptor {
       const base::MutexLock lock(log_.mutex_);
       log_.running_.erase(context_);
     }
-    if (start_ == Clock::time_point()) return;  // no call has come: the server is shutting down
+    if (start_ == Clock::time_point()) return;  // no call has come, since the server shuts down
     log_.sink_(absl::StrFormat("call %d %s%s: queue %.1f ms, kernels %.1f ms, device %.1f ms, transfer %.1f ms, "
                                "total %.1f ms, %s",
                                id_, method_.substr(sizeof(kPrefix) - 1), notes_.text(),

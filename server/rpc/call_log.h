@@ -17,7 +17,7 @@
 
 namespace isofield::rpc {
 
-// What is known of a call while it runs. Thread-safe.
+// The notes that are taken while a call runs, for its line in the log. Thread-safe.
 class CallNotes {
  public:
   engine::RequestTimes& times() { return times_; }
@@ -25,10 +25,10 @@ class CallNotes {
   // Sets the scene or the operator that the call is about.
   void set_subject(const v1::SceneRef& scene);
   void set_subject(std::string name);
-  // Adds to the work of a unit, which is "points", "rays" or "cells".
+  // Adds `count` to the work in a unit, which is "points", "rays" or "cells".
   void add_work(const char* unit, std::uint64_t count);
 
-  // What is known, in the form " scene=ball points=64".
+  // Returns the notes in the form " scene=ball points=64".
   std::string text() const;
 
  private:
@@ -38,7 +38,8 @@ class CallNotes {
   std::map<std::string, std::uint64_t> work_ ABSL_GUARDED_BY(mutex_);
 };
 
-// Thread-safe. It costs nothing when it is off, since gRPC gets no interceptor then.
+// Takes notes of running calls and writes their lines. Thread-safe. It costs nothing when it is off, since gRPC then
+// gets no interceptor.
 class CallLog {
  public:
   using Sink = std::function<void(const std::string& line)>;
@@ -47,11 +48,11 @@ class CallLog {
   explicit CallLog(Sink sink = {}) : sink_(std::move(sink)) {}
   bool is_on() const { return static_cast<bool>(sink_); }
 
-  // The notes of a running call; null where the log is off.
+  // Returns the notes of a running call, or null if the log is off. They live as long as the call.
   CallNotes* notes_of(const grpc::ServerContextBase& context) const;
 
-  // Interceptors for grpc::ServerBuilder, which must not outlive this. When a call of isofield's services is over, they
-  // write as one line
+  // Returns interceptors for grpc::ServerBuilder, which must not outlive this. When a call of isofield's services is
+  // over, they write one line, such as
   //   call 17 MeshService/Mesh scene=neuron cells=263680: queue 0.1 ms, kernels 0.0 ms, device 95.3 ms,
   //   transfer 12.0 ms, total 120.5 ms, OK
   // `queue` is how long the work waited for its turn at the device, `kernels` how long it waited for the driver to

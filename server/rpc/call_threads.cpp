@@ -10,7 +10,7 @@ void CallThreads::serve() {
   void* tag = nullptr;
   bool is_ok = false;
   while (queue_->Next(&tag, &is_ok)) {
-    const Event event = *static_cast<const Event*>(tag);  // its call may go with it
+    const Event event = *static_cast<const Event*>(tag);  // a copy, since the event may delete its call and so itself
     event(is_ok);
   }
 }
@@ -18,9 +18,10 @@ void CallThreads::serve() {
 void CallThreads::stop() {
   if (threads_.empty()) return;
   {
-    // For the server, a cancelled call has ended; it is answered into the queue all the same.
+    // The server counts a cancelled call as ended, but the call is still answered into the queue. So it waits here for
+    // all calls before it shuts the queue down.
     base::MutexLock lock(mutex_);
-    while (calls_ != 0) none_left_.wait(mutex_);
+    while (!(calls_ == 0)) none_left_.wait(mutex_);
   }
   queue_->Shutdown();
   for (std::thread& t : threads_) t.join();

@@ -1,4 +1,4 @@
-// Few threads that serve any number of asynchronous calls.
+// Serves any number of asynchronous gRPC calls with a few threads, which work through a completion queue.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -12,17 +12,19 @@
 
 namespace isofield::rpc {
 
+// Owns the queue and the threads. A call is an object with a Member; it gives gRPC pointers to Events as tags, and one
+// of the threads calls the Event when its operation is done.
 class CallThreads {
  public:
-  // `queue`: the server's own for this.
+  // `queue` is a completion queue of the server that only this object works through.
   explicit CallThreads(std::unique_ptr<grpc::ServerCompletionQueue> queue) : queue_(std::move(queue)) {}
   ~CallThreads() { stop(); }
 
-  // The tag of an operation: what is done when gRPC gives it back.
+  // The tag of an operation is a pointer to an Event, which is called when gRPC gives the tag back.
   using Event = std::function<void(bool is_ok)>;
   grpc::ServerCompletionQueue* queue() { return queue_.get(); }
 
-  // A part of every call, the one wished for among them: stop() waits until all are gone.
+  // Every call has a Member, also one that has not come yet. stop() waits until all Members are destroyed.
   class Member {
    public:
     explicit Member(CallThreads& threads) : threads_(threads) {
@@ -40,9 +42,9 @@ class CallThreads {
     CallThreads& threads_;
   };
 
-  // Once the server is started, and the first call is wished for.
+  // Starts the threads. The server must have started, and gRPC must have been asked for the first call.
   void start(int threads);
-  // Once the server is shut down; waits for the calls.
+  // Waits for all calls, and ends the threads. The server must have been shut down.
   void stop();
 
  private:

@@ -6,7 +6,7 @@
 
 namespace isofield::rpc {
 
-// From the wish for a call to the end of one. Deletes itself.
+// One call of Evaluate. It is made when gRPC is asked for the next call, and deletes itself when that call has ended.
 class EvaluateCalls::Call {
  public:
   explicit Call(EvaluateCalls& calls) : calls_(calls), member_(calls.threads_), responder_(&context_) {
@@ -17,7 +17,7 @@ class EvaluateCalls::Call {
 
  private:
   void on_call(bool is_ok) {
-    if (!is_ok) {  // the server is shut down, and on_ended will not come
+    if (!is_ok) {  // the server is shut down, so that no call has come and ended_ will not be called
       delete this;
       return;
     }
@@ -38,8 +38,8 @@ class EvaluateCalls::Call {
   grpc::ByteBuffer incoming_;
   v1::EvaluateRequest request_;
   grpc::ServerAsyncResponseWriter<grpc::ByteBuffer> responder_;
-  std::atomic<int> parts_left_ = 2;
-  // Ended: answered, cancelled or broken off, which only then the context knows.
+  std::atomic<int> parts_left_ = 2;  // answered_ and ended_
+  // gRPC calls ended_ when the call has been answered, cancelled or broken off. The context must live until then.
   CallThreads::Event came_ = [this](bool is_ok) { on_call(is_ok); };
   CallThreads::Event answered_ = [this](bool) { on_part_done(); }, ended_ = answered_;
 };

@@ -1,4 +1,4 @@
-// FieldService.Evaluate as it is served: by few threads for any number of calls that wait.
+// Serves FieldService.Evaluate with a few threads, however many calls wait.
 #pragma once
 
 #include <memory>
@@ -8,15 +8,15 @@
 
 namespace isofield::rpc {
 
-// gRPC's synchronous calls hold a thread each, and to wake one for every answer of a joined submission takes longer
-// than the submission. Here the thread that ends a submission sends all its answers. A thread that makes a scene
-// resident, compiles a kernel, or evaluates a large batch is taken for as long.
+// Each of gRPC's synchronous calls would hold a thread, and waking a thread for every answer of a joined submission
+// takes longer than the submission. Here the thread that ends a submission sends all its answers. A thread that makes a
+// scene resident, compiles a kernel, or evaluates a large batch serves no other call meanwhile.
 class EvaluateCalls {
  public:
   EvaluateCalls(FieldService& service, std::unique_ptr<grpc::ServerCompletionQueue> queue)
       : service_(service), threads_(std::move(queue)) {}
 
-  // As of CallThreads.
+  // See CallThreads for when these may be called.
   void start(int threads);
   void stop() { threads_.stop(); }
 

@@ -13,8 +13,8 @@
 namespace isofield::rpc {
 namespace {
 
-// Points that are evaluated at once for a grid, whose results are 1 to 4 MiB; more where layers are larger than that. A
-// message holds as many where the client takes it.
+// A grid is evaluated in steps of this many points, or of more if its layers are larger; the results of a step take 1
+// to 4 MiB. A message holds as many points if the client accepts it.
 constexpr std::uint64_t kGridSlab = 1u << 18;
 
 }  // namespace
@@ -78,7 +78,7 @@ GridEvaluation::GridEvaluation(engine::FieldEvaluator& fields, const engine::Res
 
 absl::Status GridEvaluation::run() {
   const std::uint32_t all = lattice_.cells[2];
-  // Whole layers of bricks are evaluated at once, at least one.
+  // Each step evaluates whole layers of bricks, at least one.
   const std::uint64_t bricks = std::max<std::uint64_t>(std::min(most_, kGridSlab) / layer_ / blobtree::kBrickCells, 1);
   const auto step = static_cast<std::uint32_t>(std::min<std::uint64_t>(bricks * blobtree::kBrickCells, all + 3));
   for (std::uint32_t k = 0; k < all; k += step) {

@@ -1,4 +1,4 @@
-// EvaluateGrid: reads the lattice of a request, and evaluates and sends its points some layers at a time.
+// Serves EvaluateGrid: it reads the lattice of a request, and evaluates and sends its points a few layers at a time.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -16,17 +16,18 @@
 
 namespace isofield::rpc {
 
-// The points are the lattice's cells. INVALID_ARGUMENT, RESOURCE_EXHAUSTED: as field_service.proto says.
+// Reads the lattice of a request; each of its cells stands for one point. INVALID_ARGUMENT, RESOURCE_EXHAUSTED: see
+// field_service.proto.
 absl::StatusOr<blobtree::Lattice> read_lattice(const v1::EvaluateGridRequest& request, const Limits& limits);
 
 std::uint64_t points_of_lattice(const blobtree::Lattice& lattice);
 
-// For one call and one thread. All that it is given must outlive it.
+// Serves one call, on one thread. Everything that it refers to must outlive it.
 class GridEvaluation {
  public:
   using Writer = grpc::ServerWriter<v1::EvaluateGridResponse>;
 
-  // `most`: points that a message may hold.
+  // A message holds at most `most` points.
   GridEvaluation(engine::FieldEvaluator& fields, const engine::ResidentScene& scene, const blobtree::Lattice& lattice,
                  engine::ResultLayout layout, std::uint64_t most, const Call& call, Writer& writer);
 
@@ -34,22 +35,22 @@ class GridEvaluation {
   absl::Status run();
 
  private:
-  // Layers `first` and on, in one message that they are evaluated into.
+  // Evaluates layers from `first` on into one message, and sends it.
   absl::Status send_at_once(std::uint32_t first, std::uint32_t layers);
-  // The same in several messages.
+  // Evaluates layers from `first` on, and sends them in several messages.
   absl::Status send_in_parts(std::uint32_t first, std::uint32_t layers);
 
   engine::FieldEvaluator& fields_;
   const engine::ResidentScene& scene_;
   const blobtree::Lattice& lattice_;
   const engine::ResultLayout layout_;
-  const std::uint32_t width_;  // numbers of a point
-  const std::uint64_t layer_;  // points of a layer
+  const std::uint32_t width_;  // numbers for each point
+  const std::uint64_t layer_;  // points in a layer
   const std::uint64_t most_;
   const std::function<bool()> cancelled_;
   Writer& writer_;
   v1::EvaluateGridResponse response_;
-  std::vector<float> several_;  // layers that take more than one message
+  std::vector<float> several_;  // results of layers that take more than one message
 };
 
 }  // namespace isofield::rpc

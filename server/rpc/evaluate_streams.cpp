@@ -16,12 +16,13 @@
 namespace isofield::rpc {
 namespace {
 
-// Of a stream at a time: one decoded, one on the device, one written.
+// A stream has at most so many messages at hand: one is decoded, one is on the device, and one is written.
 constexpr std::size_t kAtHand = 3;
 
 }  // namespace
 
-// From the wish for a stream to the end of one. Deletes itself.
+// One call of EvaluateStream. It is made when gRPC is asked for the next call, and deletes itself when that call has
+// ended and nothing for it is under way. Its functions may run on several threads.
 class EvaluateStreams::Stream {
  public:
   explicit Stream(EvaluateStreams& streams) : streams_(streams), member_(streams.threads_), peer_(&context_) {
@@ -34,19 +35,19 @@ class EvaluateStreams::Stream {
   }
 
  private:
-  // A message with points, from when it is read to when its answer is written.
+  // A message with points, which lives from its reading until its answer is written.
   struct Work {
     v1::EvaluateStreamRequest request;
     MessagePoints points;
-    Admission::Ticket ticket;             // of the points, until they are evaluated
-    std::optional<ResultMessage> result;  // none: into shared memory
+    Admission::Ticket ticket;             // counts the points until they are evaluated
+    std::optional<ResultMessage> result;  // absent if results go into shared memory
     std::deque<grpc::ByteBuffer> answers;  // the result's unwritten messages; empty until the first one is due
     bool is_done = false;
     absl::Status status;
   };
 
   void on_call(bool is_ok) {
-    if (!is_ok) {  // the server is shut down, and on_ended will not come
+    if (!is_ok) {  // the server is shut down, so that no call has come and ended_ will not be called
       delete this;
       return;
     }
@@ -74,7 +75,7 @@ class EvaluateStreams::Stream {
       return leave();
     }
     mutex_.unlock();
-    // Until is_reading_ is false what follows is this thread's alone.
+    // No other thread reads or parses a message until is_reading_ is false.
     auto work = std::make_unique<Work>();
     const absl::Status status = base::guarded([&] { return parse(work->request); });
     Work* const to_do = status.ok() && PointFields(work->request).has_points() ? work.get() : nullptr;
@@ -117,7 +118,8 @@ class EvaluateStreams::Stream {
     leave();
   }
 
-  // The message that has come, and of the first one what it says of the stream.
+  // Reads the message that has come. The first one also states the scene, the quantity and other settings of the
+  // stream.
   absl::Status parse(v1::EvaluateStreamRequest& request) {
     if (absl::Status status = parse_request(incoming_, request); !status.ok()) return status;
     if (batch_) {
@@ -137,7 +139,7 @@ class EvaluateStreams::Stream {
     return absl::OkStatus();
   }
 
-  // A large one is evaluated on this thread.
+  // Reads the points of a message and submits them. A large batch is evaluated on this thread.
   void evaluate(Work& work) {
     engine::PointBatch batch = *batch_;
     absl::StatusOr<MessagePoints> points =
@@ -159,7 +161,7 @@ class EvaluateStreams::Stream {
                                       [this, &work](const absl::Status& s) { on_evaluated(work, s); });
   }
 
-  // How the stream ends.
+  // Decides with which status the stream ends.
   void decide(const absl::Status& status) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     outcome_ = status;
     is_over_ = !status.ok();
@@ -172,7 +174,8 @@ class EvaluateStreams::Stream {
     peer_.Read(&incoming_, &read_);
   }
 
-  // Starts what can be started. The last thing that a thread does here.
+  // Starts whatever can start now: the next read, the next write, or the end. A thread must not touch this object after
+  // the call, since what it starts may end and delete the object.
   void go_on() ABSL_UNLOCK_FUNCTION(mutex_) {
     const bool is_answer_ready = !outcome_ && !is_writing_ && !work_.empty() && work_.front()->is_done;
     if (is_answer_ready && !work_.front()->status.ok()) {
@@ -202,7 +205,7 @@ class EvaluateStreams::Stream {
     return work.result->take_parts(limit_.rows(batch_->layout.bytes()));
   }
 
-  // The same at the end of a part.
+  // Ends one part of what is under way. Deletes the object if it was the last part, else does the same as go_on().
   void leave() ABSL_UNLOCK_FUNCTION(mutex_) {
     if (--parts_ > 0) return go_on();
     mutex_.unlock();
@@ -213,20 +216,21 @@ class EvaluateStreams::Stream {
   const CallThreads::Member member_;
   grpc::ServerContext context_;
   grpc::ServerAsyncReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer> peer_;
-  // Ended: answered, cancelled or broken off, which only then the context knows.
+  // gRPC calls ended_ when the call has been answered, cancelled or broken off. The context must live until then.
   CallThreads::Event came_ = [this](bool is_ok) { on_call(is_ok); };
   CallThreads::Event read_ = [this](bool is_ok) { on_read(is_ok); };
   CallThreads::Event written_ = [this](bool is_ok) { on_written(is_ok); };
   CallThreads::Event part_done_ = [this](bool) { on_part_done(); }, ended_ = part_done_;
 
-  grpc::ByteBuffer incoming_;                // of the thread that reads
-  std::optional<engine::PointBatch> batch_;  // lacks the points; from the first message on
-  AnswerLimit limit_;                        // from the first message on
-  std::atomic<bool> is_over_ = false;        // the work that goes on is in vain
+  grpc::ByteBuffer incoming_;                // used by the thread that reads
+  std::optional<engine::PointBatch> batch_;  // set by the first message; it lacks the points
+  AnswerLimit limit_;                        // set by the first message
+  std::atomic<bool> is_over_ = false;        // the stream has failed, so that results are no longer needed
 
   base::Mutex mutex_;
-  std::deque<std::unique_ptr<Work>> work_ ABSL_GUARDED_BY(mutex_);  // in order
-  // Under way: operations, evaluations, and of the call its coming and its end, which other threads may see at once.
+  std::deque<std::unique_ptr<Work>> work_ ABSL_GUARDED_BY(mutex_);  // in the order in which the messages came
+  // The number of parts under way: operations of gRPC and evaluations. The first two are the arrival of the call and
+  // its end, which different threads may handle at the same time.
   int parts_ ABSL_GUARDED_BY(mutex_) = 2;
   bool is_open_ ABSL_GUARDED_BY(mutex_) = false, is_reading_ ABSL_GUARDED_BY(mutex_) = false;
   bool is_writing_ ABSL_GUARDED_BY(mutex_) = false, is_input_over_ ABSL_GUARDED_BY(mutex_) = false;

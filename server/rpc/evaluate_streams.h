@@ -1,4 +1,5 @@
-// FieldService.EvaluateStream as it is served: a stream's messages are read, evaluated and answered at the same time.
+// Serves FieldService.EvaluateStream: while one message of a stream is evaluated, the next one is read and the answer
+// to the previous one is written.
 #pragma once
 
 #include <atomic>
@@ -9,14 +10,14 @@
 
 namespace isofield::rpc {
 
-// A stream holds no thread, only while a message of it is read from its bytes and evaluated; of each, so many messages
-// are at hand that one can be decoded and one written while the device is at a third.
+// A stream uses a thread only while one of its messages is parsed or evaluated. A few messages of each stream are in
+// work at a time, so that one can be decoded and one written while the device works on a third.
 class EvaluateStreams {
  public:
   EvaluateStreams(FieldService& service, std::unique_ptr<grpc::ServerCompletionQueue> queue)
       : service_(service), threads_(std::move(queue)) {}
 
-  // As of CallThreads.
+  // See CallThreads for when these may be called.
   void start(int threads);
   void stop() { threads_.stop(); }
 
@@ -24,7 +25,7 @@ class EvaluateStreams {
   class Stream;
 
   FieldService& service_;
-  std::atomic<int> open_ = 0;
+  std::atomic<int> open_ = 0;  // streams that are open
   CallThreads threads_;
 };
 

@@ -15,7 +15,7 @@ namespace isofield::rpc {
 struct FieldService::Evaluation {
   engine::PointBatch batch;
   MessagePoints points;
-  std::optional<ResultMessage> result;  // none: into shared memory
+  std::optional<ResultMessage> result;  // absent if results go into shared memory
   Admission::Ticket ticket;
 };
 
@@ -65,7 +65,7 @@ void FieldService::evaluate(const grpc::ServerContext& context, grpc::ByteBuffer
   if (!evaluation.ok()) return done(evaluation.status(), grpc::ByteBuffer());
   engine_.submit(std::move((*evaluation)->batch),
                  [&request, evaluation = *evaluation, done = std::move(done)](const absl::Status& status) {
-                   // Whoever has the answer may send the next request, for which there is room then.
+                   // The place is given up before the answer is sent, so that the client's next request finds room.
                    evaluation->ticket = {};
                    if (!status.ok()) return done(status, grpc::ByteBuffer());
                    if (!evaluation->result) return done(status, empty_result());

@@ -1,4 +1,4 @@
-// FieldService of the contract.
+// Implements FieldService of the contract: Evaluate, EvaluateStream and EvaluateGrid, which evaluate fields at points.
 #pragma once
 
 #include <functional>
@@ -15,12 +15,13 @@
 
 namespace isofield::rpc {
 
-// Evaluate is served by EvaluateCalls, EvaluateStream by EvaluateStreams.
+// EvaluateGrid is handled here. EvaluateCalls and EvaluateStreams take the other two calls from gRPC, and use the
+// public functions. Thread-safe.
 class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
                                v1::FieldService::WithRawMethod_EvaluateStream<v1::FieldService::Service>> {
  public:
-  // `batches` admits points of Evaluate and counts those of EvaluateStream, `grids` admits grids. `regions` is null
-  // where no memory is shared.
+  // `batches` admits points of Evaluate and counts those of EvaluateStream, and `grids` admits grids. `regions` is null
+  // if no memory is shared.
   FieldService(const scenes::SceneSource& scenes, engine::Engine& engine, const Limits& limits, Admission& batches,
                Admission& grids, const SharedRegions* regions, const CallLog& log)
       : scenes_(scenes),
@@ -31,14 +32,16 @@ class FieldService final : public v1::FieldService::WithRawMethod_Evaluate<
         regions_(regions),
         log_(log) {}
 
-  // Takes the status and, if it is OK, the bytes of an EvaluateResponse.
+  // Receives the status and, if it is OK, the bytes of an EvaluateResponse.
   using Answer = std::function<void(const absl::Status&, const grpc::ByteBuffer& response)>;
-  // Reads `incoming` into `request`. Calls `done` once, on this thread or another; all arguments must live until then.
+  // Reads `incoming` into `request`, and evaluates it. Calls `done` once, on this thread or another; all arguments must
+  // live until then.
   void evaluate(const grpc::ServerContext& context, grpc::ByteBuffer& incoming, v1::EvaluateRequest& request,
                 Answer done);
-  // What the first message of a stream says of all; without points.
+  // Returns the batch, without points, that the first message of a stream describes for all its messages.
   absl::StatusOr<engine::PointBatch> begin(const grpc::ServerContext& context,
                                            const v1::EvaluateStreamRequest& first) const;
+  // Reads the points of one message of a stream.
   absl::StatusOr<MessagePoints> points_of(const v1::EvaluateStreamRequest& request,
                                           const engine::ResultLayout& layout) const;
   engine::Engine& engine() { return engine_; }

@@ -1,4 +1,5 @@
-// Places, lengths and iso values of requests, which several services read alike. All refuse with INVALID_ARGUMENT.
+// Reads vectors, lengths, bounds and iso values of requests, which several services have in common. All functions
+// refuse with INVALID_ARGUMENT.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -12,27 +13,30 @@ namespace isofield::rpc {
 
 using Numbers = google::protobuf::RepeatedField<double>;
 
-// 3 numbers of magnitude at most kMaxCoordinate.
+// Reads a vector: 3 numbers of magnitude at most kMaxCoordinate.
 absl::StatusOr<blobtree::dvec3> read_vector(const char* name, const Numbers& v);
 void set_vector(const blobtree::dvec3& v, Numbers& out);
 
-// Above 0, at most kMaxCoordinate.
+// Checks a length, which must be above 0 and at most kMaxCoordinate.
 absl::StatusOr<double> read_length(const char* name, double length);
 
-// 3 numbers each, or none.
+// Reads bounds: either 3 numbers each, where each `low` is less than its `high`, or none at all.
 absl::StatusOr<std::optional<blobtree::Box>> read_bounds(const Numbers& low, const Numbers& high);
 
-// Of a positive field within ]0, 1[, by default 0.5; of a signed one any, by default 0.
+// Checks an iso value. For a positive field it must be within ]0, 1[, and 0.5 is the default. For a signed field its
+// magnitude must be at most kMaxCoordinate, and 0 is the default.
 absl::StatusOr<double> read_iso(std::optional<double> iso, operators::Law law);
 template <class Request>
 absl::StatusOr<double> read_iso(const Request& request, operators::Law law) {
   return read_iso(request.has_iso() ? std::optional(request.iso()) : std::nullopt, law);
 }
 
-// Nothing where the scene's operators do not bound its field; 1 where there is none.
+// Returns the longest edge of the box of the supports, in model units. Returns nothing if the scene's operators do not
+// bound its field, and 1 if the support is empty.
 std::optional<double> longest_support_edge(const blobtree::Tape& tape);
 
-// That what is inside is bounded, by the scene's operators or by stated bounds.
+// Checks that the inside of the scene is bounded, by its operators or by stated bounds. A signed field needs stated
+// bounds if the iso value is above 0.
 absl::Status check_bounded(const blobtree::Tape& tape, const std::optional<blobtree::Box>& bounds, double iso);
 
 }  // namespace isofield::rpc

@@ -6,7 +6,8 @@ namespace isofield::rpc {
 
 std::vector<GridPart> grid_parts(const std::array<std::uint64_t, 3>& counts, std::uint64_t most) {
   const auto [nx, ny, nz] = counts;
-  // Points of a part along each axis. Where a part has fewer than the grid, it has one point along all later axes.
+  // These are the points of a part along each axis. If a part has fewer than the grid along one axis, it has one point
+  // along all later axes.
   const std::uint64_t columns = std::min(nx, most);
   const std::uint64_t rows = columns < nx ? 1 : std::min(ny, most / nx);
   const std::uint64_t layers = columns < nx || rows < ny ? 1 : std::min(nz, most / (nx * ny));

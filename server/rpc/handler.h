@@ -1,5 +1,6 @@
-// Turns handlers of methods into what gRPC calls: the one place where statuses become gRPC's, where exceptions end, and
-// where requests are admitted.
+// Turns handlers of methods into functions that gRPC calls: requests are admitted, exceptions end, and statuses become
+// gRPC's. Calls that are not served by serve(), such as Evaluate and TrackMesh, use finish() and base::guarded()
+// themselves.
 //
 // A handler is a function that returns absl::Status. It decodes a request, asks its Call for room for the work, calls
 // down, and encodes the answer.
@@ -21,7 +22,7 @@
 
 namespace isofield::rpc {
 
-// One call as its handler sees it. `context` must outlive it, and what it gives out.
+// One call as its handler sees it. `context` must outlive it, and must outlive the functions that cancelled() returns.
 class Call {
  public:
   Call(const grpc::ServerContext& context, Admission::Ticket ticket)
@@ -29,7 +30,7 @@ class Call {
 
   // Asks for room for the estimated work of the request. RESOURCE_EXHAUSTED: there is none now.
   absl::Status admit(std::uint64_t points) { return ticket_.add(points); }
-  // Tells whether the client has gone, or given up.
+  // Returns a function that tells whether the client has gone or given up.
   std::function<bool()> cancelled() const {
     return [&context = context_] { return context.IsCancelled(); };
   }
@@ -39,10 +40,11 @@ class Call {
   Admission::Ticket ticket_;
 };
 
-// The status with which a call ends. A refusal by admission tells in the trailing metadata when to try again.
+// Returns the status with which a call ends. After a refusal by admission it also puts into the trailing metadata when
+// the client may try again.
 grpc::Status finish(grpc::ServerContext& context, const absl::Status& status);
 
-// Serves a call by handle(Call&), or refuses it.
+// Serves a call by handle(Call&), or refuses it if `admission` has no place.
 template <class Handle>
 grpc::Status serve(grpc::ServerContext& context, Admission& admission, const Handle& handle) {
   return finish(context, base::guarded([&]() -> absl::Status {
@@ -52,8 +54,8 @@ grpc::Status serve(grpc::ServerContext& context, Admission& admission, const Han
                 }));
 }
 
-// The same for a request that states how large its answer may be, and perhaps that arrays are to be plain numbers.
-// `instead` says what the client can do where the answer is too large.
+// Does the same for a request that states how large its answer may be, and perhaps that arrays must be plain numbers.
+// `instead` says what the client can do if the answer is too large.
 template <class Request, class Response, class Handle>
 grpc::Status serve_limited(grpc::ServerContext& context, Admission& admission, const Request& request,
                            Response& response, absl::string_view instead, const Handle& handle) {

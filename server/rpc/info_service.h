@@ -1,4 +1,4 @@
-// InfoService of the contract.
+// Implements InfoService of the contract: GetInfo describes the server, its device, its limits and what is resident.
 #pragma once
 
 #include <chrono>
@@ -14,9 +14,10 @@
 
 namespace isofield::rpc {
 
+// Thread-safe.
 class InfoService final : public v1::InfoService::Service {
  public:
-  // `region_socket`: where memory is shared; empty: nowhere.
+  // `region_socket` is the path of the socket for shared memory, or empty if no memory is shared.
   InfoService(const catalog::OperatorCatalog& operators, const scenes::ResidentScenes& residents,
               engine::Engine& engine, const Limits& limits, std::string version, std::string region_socket)
       : operators_(operators),
@@ -26,7 +27,7 @@ class InfoService final : public v1::InfoService::Service {
         version_(std::move(version)),
         region_socket_(std::move(region_socket)) {}
 
-  // A full server still tells about itself: this call alone needs no admission.
+  // This call asks for no admission, so that a full server still answers it.
   grpc::Status GetInfo(grpc::ServerContext* context, const v1::GetInfoRequest*,
                        v1::GetInfoResponse* response) override {
     return finish(*context, base::guarded([&] { return get(*response); }));

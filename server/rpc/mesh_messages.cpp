@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kMaxResolution = 1u << 20;
 
-// Cells. Nearer, float32 leaves nothing to gain.
+// The limits of a mesh's tolerance, in cells. A smaller one would gain nothing in float32.
 constexpr double kLeastTolerance = 1e-5, kMostTolerance = 0.1;
 
 // Fills in the cell size of `r`, whose other fields are read.
@@ -137,7 +137,7 @@ std::size_t fill_bricks(const engine::MeshCells& cells, std::size_t first, std::
   std::vector<std::uint32_t> rows;
   std::size_t at = first, vertices = 0, triangles = 0;
   const std::size_t vertex_bytes = cells.normals.empty() ? 12 : 24;
-  // A brick holds far less than a part.
+  // The last brick may exceed kPartBytes, which does no harm: a brick is far smaller than a part.
   while (at < cells.bricks.size() && rows.size() * 4 + vertices * vertex_bytes + triangles * 12 < kPartBytes) {
     const engine::MeshBrick& b = cells.bricks[at++];
     rows.insert(rows.end(), {b.x, b.y, b.z, b.vertices, b.triangles});

@@ -12,13 +12,13 @@
 
 namespace isofield::rpc {
 
-// For one request and one thread. `Response` is a message that has a MeshProgress.
+// Serves one request, on one thread. `Response` is a message with a field of type MeshProgress.
 template <class Response>
 class MeshProgressWriter {
  public:
   explicit MeshProgressWriter(grpc::ServerWriter<Response>& writer) : writer_(writer) {}
 
-  // Sends the fraction if the last message is at least kEvery old or was about another stage.
+  // Sends the fraction if the last message is at least kEvery old or was about another stage. Failures are ignored.
   void at(double fraction) {
     fraction_ = fraction;
     const Clock::time_point now = Clock::now();
@@ -48,7 +48,7 @@ class MeshProgressWriter {
   v1::MeshProgress::Stage stage_ = v1::MeshProgress::MESHING;
 };
 
-// Callbacks that write progress, and ask whether the client still waits.
+// Returns callbacks that write progress to the client and tell whether it still waits. `writer` must outlive them.
 template <class Response>
 engine::MeshCallbacks mesh_callbacks(const Call& call, grpc::ServerWriter<Response>& writer) {
   const auto progress = std::make_shared<MeshProgressWriter<Response>>(writer);

@@ -19,10 +19,11 @@
 namespace isofield::rpc {
 namespace {
 
-// The part of the progress that meshing makes, where the mesh is simplified after that.
+// Meshing makes this part of the progress if the mesh is simplified afterwards.
 constexpr double kMeshingPart = 0.4;
 
-// The parts of a request that need the whole mesh.
+// The changes to the mesh that a request asks for: leaving out bodies or voids, and simplifying. They need the whole
+// mesh first.
 struct Refinement {
   engine::ShellFilter shells;
   std::optional<double> simplification_error;
@@ -34,7 +35,7 @@ struct Refinement {
   bool is_none() const { return shells.keeps_all() && !simplification_error; }
 };
 
-// The whole mesh, refined. Notes in `totals` what was dropped.
+// Makes the whole mesh and refines it. Counts in `totals` what it has and what was dropped.
 absl::StatusOr<engine::Mesh> make_mesh(engine::Mesher& mesher, const engine::ResidentScene& scene,
                                        const engine::MeshRequest& request, const Refinement& refinement,
                                        const engine::MeshCallbacks& callbacks, MeshTotals& totals) {
@@ -59,7 +60,7 @@ absl::StatusOr<engine::Mesh> make_mesh(engine::Mesher& mesher, const engine::Res
   return mesh;
 }
 
-// Nothing: all.
+// Reads which bricks a request asks for; nothing means all of them.
 absl::StatusOr<std::optional<blobtree::BrickBox>> read_part(const v1::MeshBricksRequest& request) {
   const auto &first = request.first_brick(), &counts = request.brick_counts();
   if (first.empty() && counts.empty()) return std::nullopt;

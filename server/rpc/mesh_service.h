@@ -1,4 +1,4 @@
-// MeshService of the contract.
+// Implements MeshService of the contract: Mesh, GetMeshBricks, Measure and TrackMesh.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -16,6 +16,7 @@
 
 namespace isofield::rpc {
 
+// Thread-safe.
 class MeshService final : public v1::MeshService::Service {
  public:
   MeshService(const scenes::SceneSource& scenes, scenes::SceneEditor& editor, engine::Engine& engine,
@@ -39,7 +40,8 @@ class MeshService final : public v1::MeshService::Service {
   absl::Status get_bricks(Call& call, const v1::MeshBricksRequest& request,
                           grpc::ServerWriter<v1::MeshBricksResponse>& writer);
   absl::Status measure(Call& call, const v1::MeshRequest& request, v1::MeasureResponse& response);
-  // Serves TrackMesh. Its requests are read as bytes, since gRPC would take an unreadable message for the stream's end.
+  // Serves TrackMesh. Its requests are read as bytes, since gRPC would take an unreadable message for the end of the
+  // stream.
   absl::Status track(grpc::ServerContext& context, TrackMeshStream& stream);
 
   const scenes::SceneSource& scenes_;
@@ -47,7 +49,7 @@ class MeshService final : public v1::MeshService::Service {
   engine::Engine& engine_;
   const Limits& limits_;
   Admission& admission_;
-  std::atomic<int> tracked_ = 0;
+  std::atomic<int> tracked_ = 0;  // open TrackMesh calls
 };
 
 }  // namespace isofield::rpc

@@ -69,7 +69,7 @@ absl::Status MeshTracking::answer(const scenes::LeasedScene& leased) {
   ISOFIELD_ASSIGN_OR_RETURN(const engine::MeshTracker::Update update,
                             tracker_->update(leased.scene, {.cancelled = [&] { return context_.IsCancelled(); }}));
   ++version_;
-  // The last message is held back until it is known to be that.
+  // A message is held back until the next one begins, since the last one of an update is marked as the last.
   v1::MeshUpdate next;
   next.set_is_whole(update.is_whole);
   const auto write_next = [&] {

@@ -1,4 +1,4 @@
-// One TrackMesh call.
+// Serves one TrackMesh call: it sends the mesh of a scene, and after each edit or refresh the bricks that have changed.
 #pragma once
 
 #include <absl/status/status.h>
@@ -20,10 +20,11 @@
 
 namespace isofield::rpc {
 
-// A stream of TrackMesh whose requests are read as the bytes of TrackMeshRequests.
+// The stream of a TrackMesh call, whose requests are read as the bytes of TrackMeshRequests.
 using TrackMeshStream = grpc::ServerReaderWriter<v1::TrackMeshResponse, grpc::ByteBuffer>;
 
-// Its updates are counted as work, but never refused: limits.max_tracked_meshes bounds how many streams there are.
+// Serves one call, on one thread. Its updates count as work but are never refused, since limits.max_tracked_meshes
+// bounds the number of streams.
 class MeshTracking {
  public:
   MeshTracking(const scenes::SceneSource& scenes, scenes::SceneEditor& editor, engine::Engine& engine,
@@ -36,7 +37,7 @@ class MeshTracking {
         context_(context),
         stream_(stream) {}
 
-  // Answers requests until the client ends the stream.
+  // Answers requests until the client ends the stream. The first error ends it, too.
   absl::Status run();
 
  private:

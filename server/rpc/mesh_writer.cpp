@@ -14,7 +14,7 @@ namespace {
 
 using Writer = grpc::ServerWriter<v1::MeshResponse>;
 
-// Writes rows of numbers in parts, each the array `field` of the message `part`.
+// Writes rows of numbers in several messages. Each has a part of them as the array `field` of its field `part`.
 template <class T, class Part>
 absl::Status write_rows(Writer& writer, std::span<const T> rows, std::size_t columns, Part* (v1::MeshResponse::*part)(),
                         v1::Tensor* (Part::*field)()) {

@@ -1,4 +1,4 @@
-// Writes a mesh to the client that asked for it.
+// Writes a mesh to the client that asked for it, as a series of messages.
 #pragma once
 
 #include <absl/status/status.h>
@@ -9,25 +9,25 @@
 
 namespace isofield::rpc {
 
-// For one request and one thread. CANCELLED: the client is gone.
+// Serves one request, on one thread. All functions fail with CANCELLED if the client is gone.
 class MeshWriter {
  public:
-  // `with_creases`: write_creases() writes some, and so a copy of the mesh is kept.
+  // If `with_creases` is set, a copy of the mesh is kept, from which write_creases() computes the normals.
   MeshWriter(grpc::ServerWriter<v1::MeshResponse>& writer, bool with_creases)
       : writer_(writer), with_creases_(with_creases) {}
 
-  // Writes the next cells of a mesh, in order of place.
+  // Writes the next cells of a mesh. Cells must come in order of place.
   absl::Status write(const engine::MeshCells& cells);
   // Writes a whole mesh.
   absl::Status write(engine::Mesh mesh);
-  // After all triangles: writes the normals of creases, where these are wanted.
+  // Writes the normals of creases if the client wants them. All triangles must have been written.
   absl::Status write_creases();
 
  private:
   grpc::ServerWriter<v1::MeshResponse>& writer_;
   const bool with_creases_;
   engine::MeshJoiner joiner_;
-  engine::Mesh whole_;  // what was written, where creases are wanted
+  engine::Mesh whole_;  // what has been written, if creases are wanted
 };
 
 }  // namespace isofield::rpc

@@ -16,7 +16,7 @@ namespace {
 
 using Fields = ArgumentShape::Fields;
 
-// Angles may be so far beyond their ends, which float32 does not hold exactly.
+// Angles may lie beyond the ends of their range by this much, in radians, since float32 does not hold the ends exactly.
 constexpr float kAngleTolerance = 1e-5f;
 constexpr float kMostTheta = std::numbers::pi_v<float> / 4;
 constexpr float kMostAlpha = std::numbers::pi_v<float>;
@@ -25,7 +25,7 @@ bool contains(const OperatorArguments::Columns& columns, const std::string& name
   return std::find(columns.begin(), columns.end(), name) != columns.end();
 }
 
-// Whether the operator is the same of both laws.
+// Tells whether an operator is the same function for both laws.
 bool is_of_either_law(const operators::Operator& op) {
   using operators::Law;
   return op.takes_either_law() && op.opcode(Law::kPositive) == op.opcode(Law::kSigned);
@@ -53,13 +53,13 @@ absl::Status refuse_columns(const OperatorArguments::Columns& columns, const std
       absl::StrCat("columns = [", stated, columns.size() > 20 ? ", ..." : "", "]: expected ", expected));
 }
 
-// Fields beyond would leave float32 where operators add them.
+// Operators add fields, and larger ones would leave the range of float32.
 constexpr float kMostField = 1e36f;
 
-// What numbers of a column may be; angles a rounding beyond an end are brought back to it.
+// The range of the numbers in a column. An angle that lies beyond an end by rounding is moved to the end.
 struct Range {
   float least, most;
-  bool open = false;  // without `least`
+  bool open = false;  // `least` itself is not in the range
   const char* expected;
 
   static Range of(const std::string& column) {
@@ -87,7 +87,7 @@ ArgumentShape argument_shape(const operators::Operator& op) {
   shape.by_angle = op.has_angular_ranges();
   if (op.is_joint()) {
     const operators::OperandCount count = op.operand_count();
-    // Of one operand it is that operand's own share.
+    // Such an operator also takes a single operand, and then returns what this operand alone contributes.
     shape.least = count.least == count.most ? static_cast<int>(count.least) : 1;
     shape.most = static_cast<int>(count.most);
   }
@@ -121,7 +121,7 @@ absl::StatusOr<OperatorArguments> OperatorArguments::read(const ArgumentShape& s
     arguments.names_.push_back(by_theta ? "theta" : "alpha");
   }
   if (shape.by_angle) arguments.names_.push_back("ratio");
-  // Every column is wanted, none is doubled, and none is missing but the ratio.
+  // Each column must be one that the operator takes, and must occur once. Only the ratio may be missing.
   int found = 0;
   for (const std::string& name : arguments.names_) {
     if (contains(columns, name)) {

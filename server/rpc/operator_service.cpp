@@ -16,7 +16,7 @@
 namespace isofield::rpc {
 namespace {
 
-// The most bytes of a description in a summary.
+// A summary holds at most this many bytes of an operator's description.
 constexpr std::size_t kMostDescription = 1024;
 
 void fill_summary(const std::string& name, std::uint64_t version, const v1::Operator& message,
@@ -74,7 +74,7 @@ absl::Status OperatorService::list(const v1::ListOperatorsRequest& request, v1::
     v1::OperatorSummary summary;
     const v1::Operator message = *catalog::built_in_operator(name);
     fill_summary(name, 0, message, blobtree::unread_operator(message), summary);
-    add(std::move(summary));  // these few have room
+    add(std::move(summary));  // the built-in ones always fit
   }
   const auto add_custom = [&](const catalog::OperatorEntry& entry) -> absl::StatusOr<bool> {
     v1::OperatorSummary summary;

@@ -1,4 +1,4 @@
-// OperatorService of the contract.
+// Implements OperatorService of the contract: it keeps custom operators, and evaluates operators without a scene.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -15,6 +15,7 @@
 
 namespace isofield::rpc {
 
+// Thread-safe.
 class OperatorService final : public v1::OperatorService::Service {
  public:
   OperatorService(catalog::OperatorCatalog& operators, const scenes::SceneSource& scenes, engine::Engine& engine,
@@ -60,7 +61,7 @@ class OperatorService final : public v1::OperatorService::Service {
   absl::Status evaluate_opening(Call& call, const v1::EvaluateOperatorRequest& request,
                                 v1::EvaluateOperatorResponse& response);
   absl::Status pick(const v1::PickOpeningRequest& request, v1::PickOpeningResponse& response);
-  // The operator that a request names or brings along.
+  // Returns the operator that a request names or brings along.
   absl::StatusOr<std::shared_ptr<const operators::Operator>> choose(const v1::EvaluateOperatorRequest& request) const;
 
   catalog::OperatorCatalog& operators_;

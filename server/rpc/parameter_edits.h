@@ -1,4 +1,4 @@
-// Edits of a scene's numbers as requests have them.
+// Reads edits of a scene's numbers from the messages of a request.
 #pragma once
 
 #include <google/protobuf/repeated_ptr_field.h>

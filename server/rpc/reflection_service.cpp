@@ -13,7 +13,7 @@
 namespace isofield::rpc {
 namespace {
 
-namespace v1 = grpc::reflection::v1;
+namespace reflection = grpc::reflection::v1;
 using google::protobuf::DescriptorPool;
 using google::protobuf::FileDescriptor;
 
@@ -23,15 +23,15 @@ const DescriptorPool& pool() {
   return *DescriptorPool::generated_pool();
 }
 
-void refuse(const std::string& what, const std::string& name, v1::ServerReflectionResponse& response) {
+void refuse(const std::string& what, const std::string& name, reflection::ServerReflectionResponse& response) {
   response.mutable_error_response()->set_error_code(static_cast<int>(grpc::StatusCode::NOT_FOUND));
   response.mutable_error_response()->set_error_message(absl::StrCat("no ", what, " is named ", base::quoted(name)));
 }
 
-// Adds a file and those that it imports, except for files that this stream has already had. A file that is asked for is
-// always added.
+// Adds a file and the files that it imports, except for those that this stream has sent before. A file that the client
+// asks for is always added.
 void add_files(const FileDescriptor& file, bool is_asked_for, absl::flat_hash_set<std::string>& sent,
-               v1::FileDescriptorResponse& response) {
+               reflection::FileDescriptorResponse& response) {
   if (!sent.insert(std::string(file.name())).second && !is_asked_for) return;
   google::protobuf::FileDescriptorProto message;
   file.CopyTo(&message);
@@ -50,11 +50,11 @@ ReflectionService::ReflectionService(std::vector<std::string> services) : servic
 
 grpc::Status ReflectionService::ServerReflectionInfo(
     grpc::ServerContext*,
-    grpc::ServerReaderWriter<v1::ServerReflectionResponse, v1::ServerReflectionRequest>* stream) {
+    grpc::ServerReaderWriter<reflection::ServerReflectionResponse, reflection::ServerReflectionRequest>* stream) {
   absl::flat_hash_set<std::string> sent;
-  v1::ServerReflectionRequest request;
+  reflection::ServerReflectionRequest request;
   while (stream->Read(&request)) {
-    v1::ServerReflectionResponse response;
+    reflection::ServerReflectionResponse response;
     response.set_valid_host(request.host());
     *response.mutable_original_request() = request;
     const auto answer = [&](const FileDescriptor* file, const std::string& what, const std::string& name) {
@@ -62,22 +62,22 @@ grpc::Status ReflectionService::ServerReflectionInfo(
       add_files(*file, true, sent, *response.mutable_file_descriptor_response());
     };
     switch (request.message_request_case()) {
-      case v1::ServerReflectionRequest::kFileByFilename:
+      case reflection::ServerReflectionRequest::kFileByFilename:
         answer(pool().FindFileByName(request.file_by_filename()), "file", request.file_by_filename());
         break;
-      case v1::ServerReflectionRequest::kFileContainingSymbol:
+      case reflection::ServerReflectionRequest::kFileContainingSymbol:
         answer(pool().FindFileContainingSymbol(request.file_containing_symbol()), "symbol",
                request.file_containing_symbol());
         break;
-      case v1::ServerReflectionRequest::kFileContainingExtension: {
-        const v1::ExtensionRequest& asked = request.file_containing_extension();
+      case reflection::ServerReflectionRequest::kFileContainingExtension: {
+        const reflection::ExtensionRequest& asked = request.file_containing_extension();
         const auto* type = pool().FindMessageTypeByName(asked.containing_type());
         const auto* extension = type ? pool().FindExtensionByNumber(type, asked.extension_number()) : nullptr;
         answer(extension ? extension->file() : nullptr, "extension",
                absl::StrCat(asked.containing_type(), " ", asked.extension_number()));
         break;
       }
-      case v1::ServerReflectionRequest::kAllExtensionNumbersOfType: {
+      case reflection::ServerReflectionRequest::kAllExtensionNumbersOfType: {
         const std::string& name = request.all_extension_numbers_of_type();
         const auto* type = pool().FindMessageTypeByName(name);
         if (!type) {
@@ -86,12 +86,12 @@ grpc::Status ReflectionService::ServerReflectionInfo(
         }
         std::vector<const google::protobuf::FieldDescriptor*> extensions;
         pool().FindAllExtensions(type, &extensions);
-        v1::ExtensionNumberResponse& numbers = *response.mutable_all_extension_numbers_response();
+        reflection::ExtensionNumberResponse& numbers = *response.mutable_all_extension_numbers_response();
         numbers.set_base_type_name(name);
         for (const auto* extension : extensions) numbers.add_extension_number(extension->number());
         break;
       }
-      case v1::ServerReflectionRequest::kListServices:
+      case reflection::ServerReflectionRequest::kListServices:
         for (const std::string& name : services_) {
           response.mutable_list_services_response()->add_service()->set_name(name);
         }

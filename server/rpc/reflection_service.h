@@ -1,4 +1,5 @@
-// Serves grpc.reflection.v1.ServerReflection, and links the description of grpc.health.v1.Health.
+// Implements grpc.reflection.v1.ServerReflection, by which tools find out what the server offers. It also links the
+// description of grpc.health.v1.Health.
 #pragma once
 
 #include <grpcpp/grpcpp.h>

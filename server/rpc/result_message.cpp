@@ -17,7 +17,7 @@ namespace {
 using google::protobuf::internal::WireFormatLite;
 using google::protobuf::io::CodedOutputStream;
 
-// Tag and length of a field whose content follows.
+// Returns the tag and the length of a field whose content follows.
 std::string field_head(int number, std::uint64_t bytes) {
   std::array<std::uint8_t, 16> head;
   std::uint8_t* end = CodedOutputStream::WriteVarint32ToArray(
@@ -26,7 +26,7 @@ std::string field_head(int number, std::uint64_t bytes) {
   return {head.data(), end};
 }
 
-// The bytes before the numbers in a message.
+// Returns the bytes of a message that come before its numbers.
 std::string message_head(std::uint64_t rows, std::uint64_t columns, bool in_numbers) {
   const std::uint64_t bytes = rows * columns * (in_numbers ? sizeof(double) : sizeof(float));
   v1::Tensor tensor;

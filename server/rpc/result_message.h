@@ -1,4 +1,4 @@
-// EvaluateResponses in their encoded form, made without a copy of the numbers.
+// Makes EvaluateResponses in their encoded form, without a copy of the numbers.
 #pragma once
 
 #include <grpcpp/support/byte_buffer.h>
@@ -12,20 +12,23 @@
 
 namespace isofield::rpc {
 
-// Results are written once, into what gRPC sends: a message of protobuf's would fill its bytes with zeros before and
-// copy them after.
+// Owns the numbers of a result. They are written once, into the memory that gRPC sends; a protobuf message would first
+// fill its bytes with zeros and later copy them.
 class ResultMessage {
  public:
-  // `result` has a row of the layout a point, undefined as yet.
+  // Makes room for `rows` rows of the layout, one for each point. The numbers are undefined at first.
   ResultMessage(std::uint64_t rows, const engine::ResultLayout& layout);
 
-  // The size in bytes of the message with all rows.
+  // Returns the size in bytes of a message with all rows.
   static std::uint64_t bytes(std::uint64_t rows, const engine::ResultLayout& layout, bool in_numbers);
 
+  // Returns the numbers, to be written before take() or take_parts().
   std::span<float> numbers() { return {numbers_.get(), rows_ * columns_}; }
-  // The message with all rows. It takes over the numbers, so that it can be asked for only once.
+  // Returns the message with all rows, as bytes or as plain numbers. The message takes over the numbers, so that only
+  // one call of take() or take_parts() is possible.
   grpc::ByteBuffer take(bool in_numbers);
-  // The same as several messages of at most so many rows each, in order; without any rows it is one message.
+  // Returns the rows as several messages of at most `most_rows` rows each, in order; without any rows there is one
+  // message.
   std::deque<grpc::ByteBuffer> take_parts(std::uint64_t most_rows);
 
  private:
@@ -33,7 +36,7 @@ class ResultMessage {
   std::shared_ptr<float[]> numbers_;
 };
 
-// A response without a result.
+// Returns an EvaluateResponse without a result, for results that went into shared memory.
 grpc::ByteBuffer empty_result();
 
 }  // namespace isofield::rpc

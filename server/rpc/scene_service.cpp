@@ -19,7 +19,7 @@ void fill_summary(const catalog::Entry& entry, const engine::ResidentScene& scen
   summary.set_device_bytes(scene.device_bytes());
   const blobtree::Box& box = scene.tape().support;
   if (box.empty()) return;
-  // An axis without an end has the limits of coordinates: not every JSON reader takes infinities.
+  // A support without an end gets the limits of coordinates instead, since not every JSON reader accepts infinities.
   const auto within = [](double x) { return std::clamp(x, -base::kMaxCoordinate, base::kMaxCoordinate); };
   for (const double x : {box.min.x, box.min.y, box.min.z}) summary.add_support_min(within(x));
   for (const double x : {box.max.x, box.max.y, box.max.z}) summary.add_support_max(within(x));

@@ -1,4 +1,4 @@
-// SceneService of the contract.
+// Implements SceneService of the contract, by which clients put, get, list, edit and delete named scenes.
 #pragma once
 
 #include "catalog/catalog.h"
@@ -11,6 +11,7 @@
 
 namespace isofield::rpc {
 
+// Thread-safe.
 class SceneService final : public v1::SceneService::Service {
  public:
   SceneService(const catalog::Catalog& catalog, const catalog::OperatorCatalog& operators,

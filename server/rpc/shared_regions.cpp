@@ -15,12 +15,13 @@
 namespace isofield::rpc {
 namespace {
 
-// A multiple of any number's size that a vector register of the host's holds well.
+// Arrays in a region begin at multiples of this many bytes, which is a multiple of the size of any number and suits the
+// host's vector registers.
 constexpr std::uint64_t kAlignment = 16;
 constexpr std::size_t kNameBytes = 16;
 
 absl::StatusOr<std::uint64_t> size_of(int descriptor) {
-  // Pages of another kind, such as huge ones, can be missing when they are touched.
+  // Only pages of tmpfs are accepted. Others, such as huge pages, may turn out to be missing when they are touched.
   struct statfs system {};
   struct stat file {};
   const int seals = fcntl(descriptor, F_GET_SEALS);
@@ -75,7 +76,7 @@ absl::StatusOr<std::string> SharedRegions::open(int descriptor) {
 }
 
 void SharedRegions::close(const std::string& name) {
-  std::shared_ptr<Region> last;  // declared before the lock: unmapped after it
+  std::shared_ptr<Region> last;  // declared before the lock, so that memory is unmapped after the lock is released
   const base::MutexLock lock(mutex_);
   const auto it = regions_.find(name);
   if (it == regions_.end()) return;

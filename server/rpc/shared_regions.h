@@ -1,4 +1,4 @@
-// Memory that clients on this machine share with the server.
+// Maps memory that clients on this machine share with the server, and finds arrays in it.
 #pragma once
 
 #include <absl/container/flat_hash_map.h>
@@ -18,28 +18,29 @@ namespace isofield::rpc {
 
 struct SharedLimits {
   std::uint64_t max_regions = 64;
-  std::uint64_t max_bytes = 1u << 30;  // of all regions
+  std::uint64_t max_bytes = 1u << 30;  // the bytes of all regions together
 };
 
-// Part of a region, which lives as long. What it holds may change at any time.
+// A part of a region, which stays mapped as long as this lives. The client may change the bytes at any time.
 struct SharedBytes {
   std::shared_ptr<const void> region;
   std::span<std::byte> bytes;
 };
 
-// Thread-safe.
+// Owns the mappings of all open regions. Thread-safe.
 class SharedRegions {
  public:
   explicit SharedRegions(const SharedLimits& limits) : limits_(limits) {}
 
-  // Maps a memfd, which may be closed afterwards, and names it by 16 random bytes. INVALID_ARGUMENT: not a memfd that
-  // keeps its size. RESOURCE_EXHAUSTED: beyond the limits.
+  // Maps a memfd, which may be closed afterwards, and returns its name, 16 random bytes. INVALID_ARGUMENT: the
+  // descriptor is not a memfd whose size is sealed, or it is empty. RESOURCE_EXHAUSTED: the region is beyond the
+  // limits, or cannot be mapped.
   absl::StatusOr<std::string> open(int descriptor);
-  // Unmapped when the requests that use it have ended.
+  // Forgets a region. It is unmapped when all requests that use it have ended.
   void close(const std::string& name);
 
-  // `tensor` of `count` numbers of `number_bytes`; `what` it is in the request. Errors as SharedTensor's in
-  // scene.proto, but for FAILED_PRECONDITION.
+  // Finds the array of `count` numbers of `number_bytes` each that `tensor` refers to. Errors call it `what`, and are
+  // those of SharedTensor in scene.proto except for FAILED_PRECONDITION.
   absl::StatusOr<SharedBytes> find(const v1::SharedTensor& tensor, std::uint64_t count, std::uint64_t number_bytes,
                                    const char* what) const;
 
@@ -49,7 +50,8 @@ class SharedRegions {
   const SharedLimits limits_;
   mutable base::Mutex mutex_;
   absl::flat_hash_map<std::string, std::shared_ptr<Region>> regions_ ABSL_GUARDED_BY(mutex_);
-  // Mapped: those closed and still in use among them. Shared with the regions.
+  // The regions that are mapped, including closed ones that are still in use. The regions share this count, since they
+  // may outlive this.
   struct Usage {
     std::atomic<std::uint64_t> regions = 0, bytes = 0;
   };

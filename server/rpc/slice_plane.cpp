@@ -16,7 +16,7 @@ namespace {
 
 using blobtree::dvec3;
 
-// Samples along the longer extent where neither their number nor their spacing is stated.
+// The number of samples along the longer extent if neither counts nor spacing is stated.
 constexpr double kDefaultCount = 512;
 
 absl::StatusOr<dvec3> read_axis(const char* name, const Numbers& numbers, const dvec3& otherwise) {
@@ -43,7 +43,7 @@ absl::Status read_axes(const v1::SliceRequest& request, engine::Plane& plane) {
   return absl::OkStatus();
 }
 
-// How far the box of the supports reaches along the plane's axes.
+// Returns the extents of the box of the supports along the plane's axes.
 std::array<double, 2> extents_of(const blobtree::Box& box, const engine::Plane& plane) {
   const dvec3 edges = box.max - box.min;
   const auto along = [&](const dvec3& axis) {
@@ -85,7 +85,7 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
     return absl::InvalidArgumentError(
         "origin, spacing and counts: expected, since the operators of this scene do not bound its field by themselves");
   }
-  // A scene without any field is sampled about the origin.
+  // A scene without any field is sampled around the origin.
   const blobtree::Box box = tape.support.empty() ? blobtree::Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}} : tape.support;
   engine::Plane plane;
   ISOFIELD_RETURN_IF_ERROR(read_axes(request, plane));
@@ -100,8 +100,8 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
     spacing.fill(std::max(extents[0], extents[1]) / (kDefaultCount - 1));
   }
   if (request.counts().empty()) {
-    // There is one more sample than steps. Supports are rounded outwards by some 1e-5 of themselves, which must not add
-    // another one.
+    // There is one more sample than there are steps. Supports are rounded outwards by about 1e-5 of their size, which
+    // must not add another sample.
     for (int i = 0; i < 2; ++i) counts[i] = std::ceil(extents[i] / spacing[i] * (1 - 1e-4)) + 1;
   }
   if (!(counts[0] * counts[1] <= static_cast<double>(max_points))) {

@@ -1,4 +1,4 @@
-// Reads the samples that a SliceRequest asks for. Fields that it leaves out are chosen to suit the scene.
+// Reads from a SliceRequest which plane to sample, and where. Fields that it leaves out are chosen to suit the scene.
 #pragma once
 
 #include <absl/status/statusor.h>

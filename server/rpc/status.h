@@ -1,4 +1,4 @@
-// Translates absl's statuses to gRPC's.
+// Turns absl's statuses into gRPC's.
 #pragma once
 
 #include <absl/status/status.h>
@@ -6,15 +6,15 @@
 
 namespace isofield::rpc {
 
-// The most bytes of a status's message. gRPC's clients accept 8 KiB of headers in all, and gRPC may encode a byte as
+// The most bytes of a status message. gRPC's clients accept 8 KiB of headers in all, and gRPC may encode one byte as
 // three.
 inline constexpr std::size_t kMaxStatusBytes = 2048;
 
-// The codes are the same numbers by design. The message is cut at kMaxStatusBytes, and control characters in it are
-// escaped.
+// Converts a status. Both libraries use the same numbers for codes by design. The message is cut at kMaxStatusBytes,
+// and control characters in it are escaped.
 grpc::Status to_grpc(const absl::Status& status);
 
-// CANCELLED: nobody is there to take an answer.
+// Returns the status CANCELLED, for a client that no longer waits for its answer.
 absl::Status client_gone();
 
 }  // namespace isofield::rpc

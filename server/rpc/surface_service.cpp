@@ -18,12 +18,13 @@ namespace isofield::rpc {
 namespace {
 
 constexpr int kMaxLevels = 64;
-// Of the longest edge of the supports: the tolerance of a projection that states none.
+// The tolerance of a projection that states none, as a part of the longest edge of the supports.
 constexpr double kProjectionTolerance = 1e-5;
 
 constexpr RowArray::Words kPoints{"points", "points", "send them in parts"};
 
-// Origins within reach, directions that are some, and as many of one as of the other.
+// Checks that there are as many origins as directions, that the coordinates of origins are within their limit, and that
+// no direction is 0.
 absl::Status check_rays(const PointArray& origins, const PointArray& directions) {
   if (origins.size() != directions.size()) {
     return absl::InvalidArgumentError(absl::StrCat("directions.shape = [", directions.size(),
@@ -58,7 +59,8 @@ absl::StatusOr<engine::SurfaceRequest> read_surface(const v1::CastRaysRequest& r
   return r;
 }
 
-// Turns places in the scene's nodes into places in the list of names that it makes.
+// Fills the response's list of names with the nodes that were hit, and turns indices of nodes into indices in that
+// list.
 void set_names(const v1::Scene& scene, std::vector<std::uint32_t>& nodes, v1::CastRaysResponse& response) {
   std::vector<std::uint32_t> hit = nodes;
   std::sort(hit.begin(), hit.end());

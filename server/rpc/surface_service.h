@@ -1,4 +1,4 @@
-// SurfaceService of the contract.
+// Implements SurfaceService of the contract: CastRays, ProjectPoints, Contains and Slice.
 #pragma once
 
 #include "engine/engine.h"
@@ -9,6 +9,7 @@
 
 namespace isofield::rpc {
 
+// Thread-safe.
 class SurfaceService final : public v1::SurfaceService::Service {
  public:
   SurfaceService(const scenes::SceneSource& scenes, engine::Engine& engine, const Limits& limits,

@@ -17,8 +17,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "tensors are little-endian");
 
-// The place of the first number that is not finite, or the size. Over blocks without branches, and of integers, whose
-// sums may be taken in any order: it vectorises, 0.3 ms a million points where a sum of floats took 2.
+// Returns the index of the first number that is not finite, or the size if all are. It works through blocks without
+// branches and on integers, whose results may be combined in any order, so that the compiler vectorises it. Measured,
+// it takes 0.3 ms for a million points, and a sum of floats 2 ms.
 std::size_t first_not_finite(std::span<const float> numbers) {
   constexpr std::uint32_t kExponent = 0x7f800000;
   constexpr std::size_t kBlock = 256;
@@ -54,7 +55,7 @@ void fill(std::span<const T> numbers, std::uint64_t columns, v1::Tensor::DType d
 absl::Status RowArray::check(v1::Tensor::DType dtype, const Shape& shape, std::uint64_t columns, std::uint64_t max_rows,
                              const Words& words) {
   if (dtype != v1::Tensor::FLOAT32 && dtype != v1::Tensor::FLOAT64) {
-    const std::string& name = v1::Tensor::DType_Name(dtype);  // empty: a number that has none
+    const std::string& name = v1::Tensor::DType_Name(dtype);  // empty if the number is not in the enumeration
     return absl::InvalidArgumentError(absl::StrCat(words.tensor, ".dtype = ", name.empty() ? absl::StrCat(dtype) : name,
                                                    ": expected FLOAT32 or FLOAT64"));
   }

@@ -12,17 +12,17 @@ namespace {
 using grpc::experimental::InterceptionHookPoints;
 using grpc::experimental::ServerRpcInfo;
 
-// This method reads its requests itself, from bytes; an interceptor would only cost it time.
+// Evaluate reads its requests itself, from bytes. An interceptor would only cost it time.
 constexpr absl::string_view kEvaluate = "/isofield.v1.FieldService/Evaluate";
 
-// The full name of the request of a method, "/package.Service/Method".
+// Returns the full name of the request message of a method; the method has the form "/package.Service/Method".
 std::string request_type(const char* method) {
   const std::string name = absl::StrReplaceAll(absl::string_view(method).substr(1), {{"/", "."}});
   const auto* descriptor = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(name);
   return descriptor ? descriptor->input_type()->full_name() : absl::StrCat("the request of ", method);
 }
 
-// The check of one call. It works when the request has been read, and again before the status is sent.
+// Checks one call. It looks at the request after it has been read, and changes the status before it is sent.
 class RequestCheck final : public grpc::experimental::Interceptor {
  public:
   explicit RequestCheck(const char* method) : method_(method) {}
@@ -45,7 +45,7 @@ class RequestCheck final : public grpc::experimental::Interceptor {
 class RequestChecks final : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
   grpc::experimental::Interceptor* CreateServerInterceptor(ServerRpcInfo* info) override {
-    // In a stream of requests, gRPC does not distinguish an unreadable one from the end of the stream.
+    // Streams of requests are left out, since gRPC does not distinguish an unreadable request from the end of a stream.
     const bool has_one_request =
         info->type() == ServerRpcInfo::Type::UNARY || info->type() == ServerRpcInfo::Type::SERVER_STREAMING;
     return has_one_request && info->method() != kEvaluate ? new RequestCheck(info->method()) : nullptr;

@@ -1,4 +1,4 @@
-// Answers INVALID_ARGUMENT with an explanation to requests whose bytes are no message of their method's type. gRPC by
+// Answers requests whose bytes are no message of their method's type with INVALID_ARGUMENT and an explanation. gRPC by
 // itself would answer INTERNAL without an explanation.
 #pragma once
 
@@ -12,18 +12,19 @@
 
 namespace isofield::rpc {
 
-// The error for such a request. `type` is the full name of the message that the method expects.
+// Returns the error for such a request. `type` is the full name of the message that the method expects.
 absl::Status unreadable(const std::string& type);
 
-// Parses the request of a method that takes its requests as bytes. Empties `bytes`.
+// Parses the request of a method that takes its requests as bytes, and empties `bytes`. INVALID_ARGUMENT: the bytes are
+// no such message.
 template <class Message>
 absl::Status parse_request(grpc::ByteBuffer& bytes, Message& message) {
   if (grpc::SerializationTraits<Message>::Deserialize(&bytes, &message).ok()) return absl::OkStatus();
   return unreadable(Message::descriptor()->full_name());
 }
 
-// Interceptors for methods whose single request gRPC reads. They replace its answer to an unreadable request by that of
-// unreadable().
+// Returns interceptors for methods whose single request gRPC reads. They replace gRPC's status for an unreadable
+// request by unreadable().
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> refuse_unreadable_requests();
 
 }  // namespace isofield::rpc

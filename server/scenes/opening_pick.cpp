@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-// The place of the node that a name or "#i" refers to.
+// Returns the index of the node that a name, or "#index", refers to; nothing if there is no such node.
 std::optional<int> find_node(const v1::Scene& scene, const std::string& reference) {
   if (!reference.empty() && reference[0] == '#') {
     int index = 0;
@@ -40,7 +40,7 @@ struct Sample {
   std::array<double, 3> gradient{};
 };
 
-// A node's field at a point of its own frame.
+// Evaluates the field of a node at a point of the node's own frame.
 absl::StatusOr<Sample> sample(const FoundScene& found, const std::string& node, const blobtree::dvec3& point,
                               engine::Engine& engine) {
   v1::Scene rooted = *found.scene;
@@ -56,7 +56,7 @@ absl::StatusOr<Sample> sample(const FoundScene& found, const std::string& node, 
   return Sample{scene->tape().law, row.value(0), {gx, gy, gz}};
 }
 
-// Radians; 0 where one of them vanishes.
+// Returns the angle in radians; it is 0 if one of the vectors is null.
 double angle_between(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   const std::array<double, 3> cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   return std::atan2(std::hypot(cross[0], cross[1], cross[2]), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
@@ -79,7 +79,7 @@ absl::StatusOr<OpeningPick> pick_opening(const FoundScene& found, const std::str
   }
   ISOFIELD_ASSIGN_OR_RETURN(const Sample first, sample(found, *children[0], point, engine));
   ISOFIELD_ASSIGN_OR_RETURN(const Sample second, sample(found, *children[1], point, engine));
-  // An operator of two children has the law of its children, or the scene would have been refused above.
+  // An operator of two children has the same law as its children; otherwise the scene would have been refused above.
   if (first.law != operators::Law::kPositive) {
     return absl::InvalidArgumentError(
         absl::StrCat("node = ", name, " joins signed fields: expected a positive operator of 2 children"));

@@ -19,7 +19,7 @@ void ResidentScenes::keep(std::uint64_t version, engine::SceneLease scene) {
 }
 
 void ResidentScenes::drop(std::uint64_t version) {
-  engine::SceneLease last;  // declared before the lock, so that it is released after it
+  engine::SceneLease last;  // declared before the lock, so that the scene is freed after the lock is released
   const base::MutexLock lock(mutex_);
   const auto it = kept_.find(version);
   if (it == kept_.end()) return;

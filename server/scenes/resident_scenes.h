@@ -1,4 +1,4 @@
-// The scenes of the catalog that are resident on the device.
+// Keeps scenes of the catalog resident on the device, so that requests find them there.
 #pragma once
 
 #include <absl/container/flat_hash_map.h>
@@ -12,21 +12,21 @@
 
 namespace isofield::scenes {
 
-// Keeps a lease of each version that is to stay resident. Thread-safe.
+// Owns a lease of each version that is to stay resident. Thread-safe.
 class ResidentScenes {
  public:
   explicit ResidentScenes(engine::Engine& engine) : engine_(engine) {}
 
-  // Returns the resident form of an entry, which is made now if it is not kept. Errors are those of
+  // Returns the resident form of an entry, and makes it for the caller alone if it is not kept. Errors are those of
   // engine::Engine::make_resident.
   absl::StatusOr<engine::SceneLease> acquire(const catalog::Entry& entry) const;
 
-  // Keeps a version for acquire() until drop(); leases that are out live on.
+  // Keeps a version for acquire() until drop(). A lease that acquire() has returned stays valid after drop().
   void keep(std::uint64_t version, engine::SceneLease scene);
   void drop(std::uint64_t version);
 
   struct Usage {
-    std::uint64_t scenes = 0, bytes = 0;  // bytes on the device, those of volumes included
+    std::uint64_t scenes = 0, bytes = 0;  // bytes on the device, including those of all volumes
   };
   Usage usage() const;
 

@@ -45,7 +45,7 @@ absl::StatusOr<StoredScene> SceneEditor::try_edit(const std::string& name,
   ISOFIELD_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> nodes, blobtree::apply_edits(edits, scene));
   ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease before, residents_.acquire(entry));
   ISOFIELD_ASSIGN_OR_RETURN(engine::SceneLease lease, engine_.edit(*before, scene, nodes, entry.operators->table));
-  // Against the version that was read, so that two editors at once lose nothing.
+  // The put requires the version that was read, so that of two edits at the same time neither is lost.
   catalog::Condition condition;
   condition.version = expected_version != 0 ? expected_version : entry.version;
   return put(name, std::move(scene), std::move(lease), entry.operators, condition);

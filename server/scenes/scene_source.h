@@ -1,4 +1,4 @@
-// From the SceneRef of a request to a lease of a resident scene.
+// Finds the scene that a request refers to, by name or inline, and returns a lease of its resident form.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -13,30 +13,36 @@
 
 namespace isofield::scenes {
 
+// A resident scene for one request.
 struct LeasedScene {
   engine::SceneLease scene;
-  std::uint64_t version = 0;  // 0: inline
-  // What it was made of; of an inline one the request's own, which must outlive this.
+  std::uint64_t version = 0;  // 0 for an inline scene
+  // The message from which the scene was made. It is the request's own for an inline scene, so that the request must
+  // outlive this.
   std::shared_ptr<const v1::Scene> message;
 };
 
-// Returns how answers name a node of a scene: its name, or "#place" where it has none.
+// Returns how answers name a node of a scene: its name, or "#index" if it has none.
 std::string node_name(const v1::Scene& scene, std::uint32_t node);
 
+// A scene as a message, with its custom operators, for requests that need no lease.
 struct FoundScene {
   std::shared_ptr<const v1::Scene> scene;
   std::shared_ptr<const catalog::SceneOperators> operators;
 };
 
-// Thread-safe.
+// Looks scenes up in the catalog and makes inline ones resident. Thread-safe.
 class SceneSource {
  public:
   SceneSource(const catalog::Catalog& catalog, const catalog::OperatorCatalog& operators,
               const ResidentScenes& residents, engine::Engine& engine)
       : catalog_(catalog), operators_(operators), residents_(residents), engine_(engine) {}
 
+  // Returns a lease; an inline scene is made resident for it alone. NOT_FOUND: there is no scene of this name.
+  // INVALID_ARGUMENT: `ref` refers to no scene, or the scene is faulty. Other errors are those of
+  // engine::Engine::make_resident.
   absl::StatusOr<LeasedScene> lease(const v1::SceneRef& ref) const;
-  // The scene itself, of an inline one a copy.
+  // Returns the scene without making it resident; an inline scene is copied. Errors are the same, but for the last.
   absl::StatusOr<FoundScene> find(const v1::SceneRef& ref) const;
 
  private:

@@ -35,7 +35,7 @@ std::string head(const char* about, const char* guard) {
                       guard, "\n\n");
 }
 
-// The constant NAME_i, and the macro HAS_NAME_i, of each code.
+// Writes for each code the constant PREFIX_NAME, its number, and the macro HAS_PREFIX_NAME, which tests its bit.
 template <class Traits>
 void append_codes(std::string& text, std::string_view prefix, const char* word_name, std::span<const Traits> codes) {
   for (std::size_t i = 0; i < codes.size(); ++i) {
@@ -46,7 +46,8 @@ void append_codes(std::string& text, std::string_view prefix, const char* word_n
   absl::StrAppend(&text, "\n");
 }
 
-// Whether any of the opcodes that are wanted is in the sets, with other terms.
+// Returns a GLSL expression that is true if the kernel's sets hold any opcode that `applies` so, or if `terms` is not
+// 0.
 std::string any_of(Opcodes opcodes, Applies applies, std::string terms) {
   std::vector<std::uint32_t> masks(words(opcodes.size()));
   for (std::size_t i = 0; i < opcodes.size(); ++i) {
@@ -62,7 +63,7 @@ void append_constant(std::string& text, std::size_t id, const std::string& name,
   absl::StrAppend(&text, "layout(constant_id = ", id, ") const uint ", name, " = ", value, ";\n");
 }
 
-// Without a scene a kernel knows of every code.
+// Writes the specialisation constants. Their defaults are those of a kernel that knows every code.
 void append_specialisation(std::string& text, std::size_t operand_words, std::size_t opcode_words) {
   absl::StrAppend(
       &text,
@@ -94,13 +95,14 @@ void append_includes(std::string& text, const char* folder, std::set<std::string
   absl::StrAppend(&text, "\n");
 }
 
-// The test whether an instruction holds the code: first what the compiler drops where no set has it.
+// Returns the test whether an instruction holds the code. The outer condition is constant, so that the compiler drops
+// the branch where the kernel's sets lack the code.
 std::string if_code(std::string_view prefix, std::string_view only, std::string_view variable, std::string_view name) {
   const std::string code = absl::StrCat(text_of(prefix), upper(name));
   return absl::StrCat("  if (HAS_", code, ") if (is_code(", text_of(only), ", ", text_of(variable), ", ", code, ")) ");
 }
 
-// A function of an opcode that calls that of each which applies so.
+// Writes a function that calls, by opcode, the function of each opcode that `applies` so.
 void append_dispatch(std::string& text, Opcodes opcodes, Applies applies, std::string_view signature,
                      std::string_view start, std::string_view prefix, std::string_view arguments) {
   absl::StrAppend(&text, text_of(signature), " {\n  Field r = ", text_of(start), ";\n");
@@ -112,7 +114,7 @@ void append_dispatch(std::string& text, Opcodes opcodes, Applies applies, std::s
   absl::StrAppend(&text, "  return r;\n}\n\n");
 }
 
-// A function that tells whether an opcode applies so.
+// Writes a function that tells whether an opcode `applies` so.
 void append_question(std::string& text, Opcodes opcodes, Applies applies, const char* name) {
   absl::StrAppend(&text, "bool ", name, "(uint op) {\n");
   for (const operators::OpcodeTraits& o : opcodes) {

@@ -1,4 +1,5 @@
-// Writes a text of code_texts.h to the standard output at build time (shaders/CMakeLists.txt): codes, leaves or operators.
+// A build tool that writes a text of code_texts.h to the standard output: codes, leaves or operators
+// (shaders/CMakeLists.txt).
 #include <cstdio>
 #include <string_view>
 

@@ -1,4 +1,4 @@
-// Writes what shaders share with C++ as GLSL, at build time: shaders/CMakeLists.txt.
+// A build tool that writes the constants and layouts that shaders share with C++ as GLSL (shaders/CMakeLists.txt).
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace isofield;
 
-// "mesh", "SurfaceCases": MESH_SURFACE_CASES.
+// Returns a macro's name: "mesh" and "SurfaceCases" make MESH_SURFACE_CASES.
 std::string macro_of(const std::string& family, const std::string& name) {
   std::string macro;
   for (const char c : family) macro += static_cast<char>(std::toupper(c));
@@ -26,7 +26,7 @@ std::string macro_of(const std::string& family, const std::string& name) {
   return macro;
 }
 
-// Not a const: an unused one stays in the compiled kernel.
+// Writes a macro and not a const, because an unused const stays in the compiled kernel.
 void write_constant(const char* name, std::uint32_t value) { std::printf("#define %s %uu\n", name, value); }
 
 void write_bindings() {
@@ -42,20 +42,20 @@ void write_bindings() {
 
 void write_sizes() {
   write_constant("BRICK_CELLS", blobtree::kBrickCells);
-  // Of Brick in lib/bricks.glsl.
+  // lib/bricks.glsl reads the members of Brick at these offsets.
   static_assert(offsetof(blobtree::Brick, tape_begin) == 12 && offsetof(blobtree::Brick, tape_count) == 16);
   write_constant("BRICK_WORDS", sizeof(blobtree::Brick) / sizeof(std::uint32_t));
   write_constant("WINDOW_SIZE", blobtree::kWindowSize);
   std::printf("#define SILHOUETTE_CELLS %d\n", operators::kSilhouetteCells);
 }
 
-// The shaders' names of MeshConstants' members. std430 gives a vec4 an offset that is a multiple of 16.
+// A member of MeshConstants and its declaration in GLSL. std430 gives a vec4 an offset that is a multiple of 16.
 struct Member {
   const char* glsl;
   std::size_t offset;
 };
 constexpr Member kMembers[] = {
-    {"vec4 origin", offsetof(engine::MeshConstants, origin)},  // w: the cell size
+    {"vec4 origin", offsetof(engine::MeshConstants, origin)},  // w is the cell size
     {"uvec4 cells", offsetof(engine::MeshConstants, cells)},
     {"uint first", offsetof(engine::MeshConstants, first)},
     {"uint count", offsetof(engine::MeshConstants, count)},
@@ -70,10 +70,10 @@ constexpr Member kMembers[] = {
 };
 static_assert(offsetof(engine::MeshConstants, cell) == offsetof(engine::MeshConstants, origin) + 12);
 static_assert(offsetof(engine::MeshConstants, origin) % 16 == 0 && offsetof(engine::MeshConstants, cells) % 16 == 0);
-// A member that is added to the struct is added to the table.
+// Fails where a member is added to the struct but not to the table.
 static_assert(sizeof(engine::MeshConstants) == kMembers[std::size(kMembers) - 1].offset + 4 &&
               sizeof(engine::MeshConstants) == 32 + 4 * (std::size(kMembers) - 2));
-// Vulkan's least limit of push constants.
+// 128 bytes of push constants are the least that every Vulkan device has.
 static_assert(sizeof(engine::MeshConstants) <= 128);
 
 void write_neighbours() {

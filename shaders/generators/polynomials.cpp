@@ -1,4 +1,4 @@
-// Writes the polynomials as GLSL, at build time: shaders/CMakeLists.txt.
+// A build tool that writes the polynomials of server/operators/polynomial.h as GLSL (shaders/CMakeLists.txt).
 #include <cstdio>
 
 #include "operators/polynomial.h"

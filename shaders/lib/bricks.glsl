@@ -1,4 +1,4 @@
-// Bricks of a lattice: server/blobtree/cull/lattice.h.
+// The bricks of a lattice and their tapes, as server/blobtree/cull/lattice.h lays them out.
 #ifndef BRICKS_GLSL
 #define BRICKS_GLSL
 
@@ -10,7 +10,7 @@ const uint CELLS_PER_BRICK = BRICK_CELLS * BRICK_CELLS * BRICK_CELLS;
 const uint CORNERS_PER_BRICK = BRICK_CORNERS * BRICK_CORNERS * BRICK_CORNERS;
 
 struct Brick {
-  uvec3 at;  // in bricks
+  uvec3 at;  // place in the lattice, in bricks
   uint tape_begin, tape_count;
 };
 
@@ -21,7 +21,7 @@ Brick brick(uint b) {
   return Brick(uvec3(bricks[i], bricks[i + 1u], bricks[i + 2u]), bricks[i + 3u], bricks[i + 4u]);
 }
 
-// The lattice point i: the same bits from whichever brick it is asked.
+// Returns the position of lattice point i. It has the same bits for all bricks that share the point.
 vec3 lattice_point(vec3 origin, vec3 spacing, uvec3 i) { return origin + spacing * vec3(i); }
 
 #endif

@@ -1,19 +1,21 @@
-// Bulge elimination: server/operators/bulge_elimination.h.
+// Bulge elimination of [H] section 5, which narrows a blend's ranges where surfaces are aligned. Mirrors
+// server/operators/bulge_elimination.h.
 #ifndef BULGE_ELIMINATION_GLSL
 #define BULGE_ELIMINATION_GLSL
 
 #include "dual.glsl"
 #include "steering.glsl"
 
-// Ranges and weights of two operands.
+// The ranges and weights of two operands.
 struct Reach2 {
   Dual r1, r2, m1, m2;
 };
 
-// `versine` is 1 less the cosine.
+// Returns range (1 - cos(angle) + omega). `versine` is 1 - cos(angle).
 Dual angular_range(float range, Dual versine, float omega) { return range * (dual(omega) + versine); }
 
-// [H] section 5. The ratio is kept within [1 / MOST_RATIO, MOST_RATIO].
+// Changes ranges and weights as [H] section 5 says. The caller has clamped `ratio`, the first gradient's length over
+// the second's, to [1 / MOST_RATIO, MOST_RATIO].
 void eliminate_bulge(inout Reach2 reach, Dual cosine, Dual versine, Dual ratio, float omega) {
   reach.r1 = angular_range(value_of(reach.r1), versine, omega);
   reach.r2 = angular_range(value_of(reach.r2), versine, omega);

@@ -1,15 +1,16 @@
-// What the distance of a primitive is, and how it becomes a field. Each kind has a file in primitives/.
+// The distance to a primitive, and the field that is made of it. The files in primitives/ compute the distance of each
+// kind.
 #ifndef DISTANCE_GLSL
 #define DISTANCE_GLSL
 
 #include "domain.glsl"
 #include "field.glsl"
 
-// Coordinates beyond this would overflow when they are squared. Fields are constant beyond it.
+// The largest coordinate of a point: squares of larger ones could overflow. Fields are constant beyond it.
 const float FARTHEST = 1e10;
 vec3 within_reach(vec3 point) { return clamp(point, vec3(-FARTHEST), vec3(FARTHEST)); }
 
-// A distance with its gradient and Hessian, in whatever frame.
+// A signed distance d with its gradient n and Hessian h, in any one frame.
 struct Distance {
   float d;
   vec3 n;
@@ -20,7 +21,7 @@ struct Distance {
 
 float safe_inverse(float x) { return x > 1e-18 ? 1.0 / x : 0.0; }
 
-// A signed primitive's field: the distance times minus the (negative) slope.
+// The field of a signed primitive: the distance times -slope. Records mark signed primitives by a negative slope.
 Field signed_field(Distance s, float slope) {
   Field a = zero_field();
   a.f = -slope * s.d;
@@ -34,14 +35,14 @@ Field signed_field(Distance s, float slope) {
   return a;
 }
 
-// f = w(clamp(R0 + slope d, 0, 1)), w(r) = (1 - r^2)^3.
+// The field of a primitive: f = w(clamp(R0 + slope d, 0, 1)) with w(r) = (1 - r^2)^3, or that of a signed primitive.
 Field soften(Distance s, float slope) {
   if (has_signed_leaves() && slope < 0.0) return signed_field(s, slope);
   Field a = zero_field();
   float r = clamp(R0 + slope * s.d, 0.0, 1.0);
   float v = 1.0 - r * r;
   a.f = v * v * v;
-  float w1 = -6.0 * r * v * v * slope;  // r = 0 and r = 1 give 0
+  float w1 = -6.0 * r * v * v * slope;  // 0 at r = 0 and r = 1
   a.d = w1 * s.n;
 #ifdef WITH_GRADIENT
   if (is_steered()) {
@@ -53,8 +54,8 @@ Field soften(Distance s, float slope) {
   return a;
 }
 
-// A body of revolution around z from its profile in the (rho, z) half plane: distance, unit normal (n_rho, n_z) and
-// curvature of the profile's level line.
+// The distance to a body of revolution around z, from its profile in the (rho, z) half plane: the distance d, the unit
+// normal n = (n_rho, n_z), and the curvature of the profile's level line.
 Distance revolve(vec3 q, float rho, float d, vec2 n, float curvature) {
   Distance s;
   float inverse_rho = safe_inverse(rho);

@@ -1,6 +1,6 @@
-// A number with its derivatives with respect to the three coordinates of a point, where a kernel wants gradients, and
-// without them where it does not. Mirrors server/reference/dual.h by name. +, - and products with a plain number are
-// those of vectors.
+// Dual numbers: a number with its derivatives with respect to the three coordinates of a point. In kernels that compute
+// no gradients (without WITH_GRADIENT) a Dual is a plain number. Mirrors server/reference/dual.h by name. Sums,
+// differences and products with a plain number are those of vectors.
 #ifndef DUAL_GLSL
 #define DUAL_GLSL
 
@@ -11,7 +11,7 @@
 Dual dual(float v) { return vec4(v, 0.0, 0.0, 0.0); }
 float value_of(Dual a) { return a.x; }
 vec3 gradient_of(Dual a) { return a.yzw; }
-// f(a) of a function with this value and slope at a.
+// Returns f(a) for a function f with this value and slope at a.
 Dual chain(Dual a, float value, float slope) { return vec4(value, a.yzw * slope); }
 Dual times(Dual a, Dual b) { return vec4(a.x * b.x, a.yzw * b.x + b.yzw * a.x); }
 #else
@@ -27,12 +27,12 @@ Dual reciprocal(Dual a) {
   return chain(a, i, -i * i);
 }
 Dual over(Dual a, Dual b) { return times(a, reciprocal(b)); }
-// The derivative at 0, which does not exist, is 0.
+// The derivative is taken as 0 at 0, where it does not exist.
 Dual square_root(Dual a) {
   float root = sqrt(max(value_of(a), 0.0));
   return chain(a, root, root > 0.0 ? 0.5 / root : 0.0);
 }
-// a >= 0; 0 at 0.
+// Returns a^exponent for a >= 0, and 0 for a = 0.
 Dual power(Dual a, float exponent) {
   float x = value_of(a);
   float p = x > 0.0 ? power_of(x, 0.0, exponent - 1.0) : 0.0;
@@ -46,7 +46,7 @@ Dual select_dual(Dual a, Dual b, bool take_b) {
 #endif
 }
 
-// An operator of two operands with its partial derivatives.
+// The value g of an operator of two operands, with its partial derivatives g1 and g2.
 struct Binary {
   Dual g, g1, g2;
 };

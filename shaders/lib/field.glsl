@@ -1,21 +1,21 @@
-// What a node yields at a point. Mirrors server/reference/: a value, the direction that steers gradient blends, and
-// (WITH_GRADIENT) the gradient of the value with the Jacobian of the direction.
+// The field that a node yields at a point: a value, the direction that steers gradient blends, and (WITH_GRADIENT) the
+// gradient of the value and the Jacobian of the direction. Mirrors server/reference/.
 #ifndef FIELD_GLSL
 #define FIELD_GLSL
 
 #include "codes.glsl"  // written at build time
 
-// Of the law of positive primitives: w(R0) = 0.5.
+// The constant r0 of positive primitives (distance.glsl): w(R0) = 0.5.
 const float R0 = 0.45420201894740647;
 
 struct Field {
   float f;
-  // Steering vector: the gradient of a primitive, combined by the operators' partials with respect to their fields.
-  // Where no gradient blend lies below it is the gradient.
+  // The steering direction: gradients of primitives, combined by the operators' partial derivatives with respect to
+  // their fields. It is the gradient of f where no gradient blend lies below the node.
   vec3 d;
 #ifdef WITH_GRADIENT
   vec3 g;  // gradient of f
-  mat3 j;  // column i: derivative of d with respect to coordinate i
+  mat3 j;  // column i is the derivative of d with respect to coordinate i
 #endif
 };
 

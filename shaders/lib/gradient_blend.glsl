@@ -1,11 +1,12 @@
-// The gradient-based composition operator. Mirrors server/operators/gradient_blend.h by name, in t = tan(theta):
-// [G] eqs. 17 to 24 solved by Newton's method on the homogeneous smooth maximum.
+// The gradient-based composition operator, as a function of f1, f2 and t = tan(theta): [G] eqs. 17 to 24, solved by
+// Newton's method on the homogeneous smooth maximum M. Mirrors server/operators/gradient_blend.h by name.
 #ifndef GRADIENT_BLEND_GLSL
 #define GRADIENT_BLEND_GLSL
 
 #include "field.glsl"
 #include "profiles.glsl"
 
+// The boundary k(f) of [G] eqs. 17 and 18, with its partial derivatives by f and t.
 struct Boundary {
   float k, k_f;
 #ifdef WITH_GRADIENT
@@ -39,7 +40,7 @@ Boundary boundary(float f, float t) {
   return b;
 }
 
-// g with partials with respect to f1, f2 and t.
+// The value g with its partial derivatives with respect to f1, f2 and t.
 struct Blend {
   float g, g1, g2;
 #ifdef WITH_GRADIENT
@@ -47,31 +48,34 @@ struct Blend {
 #endif
 };
 
-// `silhouette`: where its table starts, or SMOOTH_SILHOUETTE.
+// `silhouette` is the place where the silhouette's table starts, or SMOOTH_SILHOUETTE.
 Blend gradient_blend(float f1, float f2, float t, uint silhouette) {
   float hi = max(f1, f2), lo = min(f1, f2);
-  // Where lo <= k the profile is at u = 0, M = hi - k exactly and C stays hi: the maximum, to the bit.
+  // If lo <= k, the profile is taken at u = 0, M is exactly hi - k, and C stays hi: the result is the maximum, to the
+  // bit.
   float c = hi;
   vec3 grading = silhouette_grading(silhouette);
   Boundary k;
   vec3 q;
   float a, u, rest, slope;
-  // t is never negative: the count is 3, but the compiler cannot know and leaves a loop, which ends where all of a
-  // subgroup's lanes have broken off: after one pass where the operator is the maximum, or where F is linear, as it is for
-  // C >= 1/2; mostly after two elsewhere. Meshes of gradient blends take 0.7 to 0.8 of the time of three passes. The
-  // profile of a table may bend without bound beside a fold: there partials are right only when C is.
+  // t is never negative, so the count is always 3; but the compiler cannot know that, and keeps a loop instead of
+  // unrolling it. The loop ends when all lanes of a subgroup have left it: after one pass where the operator is the
+  // maximum or F is linear (C >= 1/2), and mostly after two elsewhere. Measured, that is faster than always three
+  // passes. The curvature of a table's profile has no bound beside a fold, so there the partials are right only if C is
+  // exact (`near` is 0).
   int steps = t >= 0.0 ? 3 : 1;
   float near = silhouette == SMOOTH_SILHOUETTE ? 1e-6 : 0.0;
   for (int step = 0; step < steps; ++step) {
     k = boundary(c, t);
     a = max(hi - k.k, 1e-30);
-    // 1 - u has no cancellation where a table needs it; either way u is 0 exactly where lo <= k.
+    // A table needs w = 1 - u without cancellation. In both cases u is exactly 0 where lo <= k.
     float w = min((hi - lo) / a, 1.0);
     u = silhouette == SMOOTH_SILHOUETTE ? clamp((lo - k.k) / a, 0.0, 1.0) : 1.0 - w;
     q = silhouette_profile(silhouette, grading, u, w);
     rest = 1.0 - (q.x + (1.0 - u) * q.y);
     slope = 1.0 - k.k_f * rest;
-    // F(C) = C - k - M: the last pass has the partials at the root, to 3 times `near`, and mends C once more.
+    // A step of Newton's method on F(C) = C - k - M. The last pass also has the partials at the root, to 3 times
+    // `near`.
     float off = ((c - hi) + a * (1.0 - q.x)) / slope;
     c -= off;
     if (abs(off) <= near || min(c, c + off) >= 0.5) break;
@@ -86,7 +90,7 @@ Blend gradient_blend(float f1, float f2, float t, uint silhouette) {
   b.g2 = exchanged ? g_hi : g_lo;
 #ifdef WITH_GRADIENT
   b.gt = k.k_t * rest * inverse;
-  // Total derivatives of (g_hi, g_lo) along hi, lo and t: the implicit function theorem.
+  // The total derivatives of g_hi and g_lo along hi, lo and t, by the implicit function theorem.
   vec3 k_v = vec3(k.k_f * g_hi, k.k_f * g_lo, k.k_f * b.gt + k.k_t);
   vec3 kf_v = vec3(k.k_ff * g_hi, k.k_ff * g_lo, k.k_ff * b.gt + k.k_ft);
   vec3 hi_v = vec3(1.0, 0.0, 0.0) - k_v;

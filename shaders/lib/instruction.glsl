@@ -1,4 +1,4 @@
-// What an instruction's operator makes of its operands: one for the interpreter and for tapes that are written out.
+// Applies an instruction's operator to its operands, both for the interpreter and for tapes that are written as GLSL.
 #ifndef INSTRUCTION_GLSL
 #define INSTRUCTION_GLSL
 
@@ -9,9 +9,11 @@
 #include "seams.glsl"
 #endif
 
-// Of the accumulator and a right operand. Operators of many and OPERATOR_PUSH give the latter.
+// Returns the result of an operator on the accumulator and the right operand v. For OPERATOR_PUSH and for operators of
+// many operands it returns v.
 Field apply_operator(Field acc, Field v, uint op, uint mode, uint record) {
-  // The operands in their order, and as the form of the operator wants them.
+  // `first` and `second` are the operands in their order; a and b are the same, or their complements, as the form
+  // needs.
   Field r = v, a = acc, b = v, first = acc, second = v;
   if (has_modes()) {
     bool is_exchanged = (mode & MODE_EXCHANGED) != 0u;
@@ -34,7 +36,7 @@ Field apply_operator(Field acc, Field v, uint op, uint mode, uint record) {
   return convert(r, acc, op, record);
 }
 
-// Of operands as many.glsl has them: x[0] is the last.
+// Returns the result of an operator of many operands, which are in the order of many.glsl: x[0] is the last.
 Field apply_to_many(Field x[MAX_OPERANDS], uint op, uint mask, uint mode, uint record) {
   uint form = mode & 3u;
   if (has_modes() && form != FORM_UNION) turn_operands(x, mask, form);
@@ -42,7 +44,7 @@ Field apply_to_many(Field x[MAX_OPERANDS], uint op, uint mask, uint mode, uint r
   if (may_follow_angle()) angle = angle_between(in_frame(x[0], record), in_frame(x[1], record));
   Field r = unite_many(x, op, mask, record, angle);
 #ifdef CELL_SIZE
-  // Ranges that follow an angle, of two operands, vanish where these are aligned.
+  // Ranges that follow an angle almost vanish where the two operands are aligned, which leaves a seam there.
   if (may_follow_angle() && operation_at(record).y >= 0.0) {
     even_seam(r, x[0], x[1], part_turned(r, x[0], x[1]), SHARP_SEAM);
   }

@@ -1,5 +1,6 @@
-// Runs a tape at a point. The stack lies in named registers that are shifted on push and pop, and an instruction fuses
-// a leaf with the operator that takes it: 23 times faster on lavapipe than a stack in an indexed array.
+// Runs a tape at a point: the tape is the list of instructions that a scene is compiled to. The stack lies in named
+// registers that are shifted on push and pop, which is far faster on lavapipe than a stack in an indexed array. An
+// instruction combines a leaf with the operator that takes it.
 #ifndef INTERPRETER_GLSL
 #define INTERPRETER_GLSL
 
@@ -21,7 +22,8 @@
 
 Field evaluate(vec3 point, uint begin, uint count) {
   vec3 p = within_reach(point);
-  // The first instruction pushes. Out of the loop, since on lavapipe a loop runs all of its body for it, blends included.
+  // The first instruction pushes a leaf. It stands before the loop, because on lavapipe the loop would run its whole
+  // body for it, blends included.
   uvec4 start = instruction_at(begin);
   Field acc = leaf_field(p, start.x & 0xffu, start.y);
   Field s0u = acc, s1u = acc, s2u = acc, s3u = acc, s4u = acc, s5u = acc, s6u = acc, s7u = acc, s8u = acc, s9u = acc,
@@ -43,7 +45,7 @@ Field evaluate(vec3 point, uint begin, uint count) {
     }
     Field r = apply_operator(acc, v, op, mode, i.z);
     if (is_of_many(op)) {
-      // The last operand is the accumulator, those before wait below it in the order of the registers.
+      // The last operand is the accumulator; the operands before it wait in the registers, the nearest first.
       Field x[MAX_OPERANDS] = Field[MAX_OPERANDS](acc, s0u, s1u, s2u, s3u, s4u, s5u, s6u, s7u, s8u, s9u, s10u, s11u,
                                                   s12u, s13u, s14u);
       r = apply_to_many(x, op, i.y, mode, i.z);

@@ -1,14 +1,15 @@
-// Operators that take all their operands at once.
+// Helpers of operators that take all their operands at once (super-elliptic blend, BTk).
 #ifndef MANY_GLSL
 #define MANY_GLSL
 
 #include "joining.glsl"
 #include "operators/conversions.glsl"
 
-// They take the operands whose bits `mask` has, the last one first: x[0] belongs to the highest bit. What is
-// beyond is of no operand.
+// An operator takes the operands whose bits are set in `mask`, since culling may have dropped others. x[] holds them
+// with the last one first, so that x[0] belongs to the highest bit. Elements of x[] beyond these hold no operand.
 
-// The place of the record of the operand at x[j], which takes its bit away.
+// Returns the place of the record of the next operand of x[], and clears its bit in `mask`. Without a further operand
+// `is_there` is false.
 uint take_operand(inout uint mask, uint record, out bool is_there) {
   is_there = mask != 0u;
   uint bit = is_there ? uint(findMSB(mask)) : 0u;
@@ -16,7 +17,7 @@ uint take_operand(inout uint mask, uint record, out bool is_there) {
   return record + 1u + bit;
 }
 
-// What a form makes of operands before their union.
+// Replaces the operands by their complements where the form needs these before the union.
 void turn_operands(inout Field x[MAX_OPERANDS], uint mask, uint form) {
   for (uint j = 0u; j < ARITY; ++j) {
     bool is_there;
@@ -25,7 +26,7 @@ void turn_operands(inout Field x[MAX_OPERANDS], uint mask, uint form) {
   }
 }
 
-// The joint result from its partials, which are 0 where there is no operand.
+// The field of the result, from its value g and its partial derivatives, which are 0 where there is no operand.
 Field join_operands(Field x[MAX_OPERANDS], Dual g, Dual partials[MAX_OPERANDS]) {
   Field r = zero_field();
   r.f = value_of(g);

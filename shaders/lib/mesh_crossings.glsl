@@ -1,4 +1,5 @@
-// Where the surface crosses the lattice's edges and which way it faces there: a crossing a quad, kept with its brick's.
+// The crossings of the surface with the lattice's edges and its normals there, and the point where the tangent planes
+// at several crossings meet. Each quad has one crossing, stored under the quad's number.
 #ifndef MESH_CROSSINGS_GLSL
 #define MESH_CROSSINGS_GLSL
 
@@ -6,12 +7,12 @@
 
 layout(std430, binding = BINDING_MESH_CELLS) readonly buffer Cells { uint cells_in[]; };
 layout(std430, binding = BINDING_MESH_STARTS) readonly buffer Starts { uvec2 starts[]; };
-// The crossings of bricks that know theirs: vectors along the unit outward normal, of length 1 + (place along the edge,
-// within [0, 1]), and longer by 2 where the inner end of the edge is on the surface.
+// The crossings of bricks with KNOWS_CROSSINGS. Each is a vector along the outward normal whose length is 1 + the place
+// along the edge, within [0, 1]; it is longer by 2 if the inner end of the edge is on the surface.
 layout(std430, binding = BINDING_MESH_CROSSINGS) readonly buffer Crossings { float crossings[]; };
 
 struct Crossing {
-  vec3 at;  // in cells, from the low corner of the cell that was asked
+  vec3 at;  // in cells, from the low corner of the cell that crossing_of() was given
   vec3 normal;
   bool begins_on_surface;
 };
@@ -19,7 +20,8 @@ struct Crossing {
 bool begins_on_surface(float crossing_length) { return crossing_length > 2.5; }
 float place_along(float crossing_length) { return crossing_length - (begins_on_surface(crossing_length) ? 3.0 : 1.0); }
 
-// Of a crossed edge of a cell: the quads of an edge are those of the cell that has it at its low corner.
+// Returns the crossing on a crossed edge of a cell. The edge's quad belongs to the cell that has the edge at its low
+// corner.
 Crossing crossing_of(uint b, uvec3 cell, uint edge) {
   uvec3 low = edge_offset(edge);
   uint axis = edge >> 2u;
@@ -33,17 +35,18 @@ Crossing crossing_of(uint b, uvec3 cell, uint edge) {
   return Crossing(vec3(low) + place_along(len) * vec3(axis_vector(axis)), v / len, begins_on_surface(len));
 }
 
-// SMOOTH: of the bricks that the kernel is about none may have creases.
+// SMOOTH is defined for kernels whose bricks may not have creases.
 #ifdef SMOOTH
 const bool MAY_HAVE_CREASES = false;
 #else
 const bool MAY_HAVE_CREASES = true;
 #endif
 
-// Planes, met as well as can be: the sum of their squared distances, about some point.
+// A set of planes, kept as the quadratic function that sums the squared distances of a point to them (a quadric error
+// function). Distances are taken from some origin point.
 struct Planes {
-  vec3 xx_yy_zz, yz_zx_xy;  // of the sum of n n'
-  vec3 offset;              // of the sum of n times the plane's distance from the point along n
+  vec3 xx_yy_zz, yz_zx_xy;  // the sum of n n', which is symmetric
+  vec3 offset;              // the sum of n times the plane's distance from the origin along n
 };
 Planes no_planes() { return Planes(vec3(0.0), vec3(0.0), vec3(0.0)); }
 void add_plane(inout Planes s, vec3 n, float distance) {
@@ -53,10 +56,11 @@ void add_plane(inout Planes s, vec3 n, float distance) {
 }
 vec3 times(Planes s, vec3 v) { return s.xx_yy_zz * v + s.yz_zx_xy.zxy * v.yzx + s.yz_zx_xy.yzx * v.zxy; }
 
-// From the point to where the planes meet as well as can be within the cell, the point being at `x` in it, in cells. Where
-// they meet outside the cell it slides along the crease to the cell's face: what leaves the cell is held there, and the
-// rest follows. The damping, a part of the planes' number, keeps the point where it is along what they leave open, or
-// almost open: what a truncated pseudo-inverse does, but continuous, and without an eigen decomposition.
+// Returns the step from the origin point, which is at `x` in the cell, in cells, to the point within the cell that is
+// nearest to all planes (least squares). If the planes meet outside the cell, the point slides along the crease to the
+// cell's face: coordinates that would leave the cell are held at the face, and the others are solved again. The
+// damping, a fraction of the number of planes, keeps the point in place along directions that the planes leave free or
+// almost free. A truncated pseudo-inverse does the same, but is not continuous and needs an eigen decomposition.
 vec3 meeting_point(Planes s, vec3 x, float damping) {
   vec3 least = vec3(MARGIN) - x, most = vec3(1.0 - MARGIN) - x;
   float scale = dot(s.xx_yy_zz, vec3(1.0));

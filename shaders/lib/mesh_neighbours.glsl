@@ -1,20 +1,20 @@
-// Cells across the faces of bricks.
+// Finds cells that may lie beyond the faces or edges of a brick, in its neighbours.
 #ifndef MESH_NEIGHBOURS_GLSL
 #define MESH_NEIGHBOURS_GLSL
 
 #include "mesh_constants.glsl"
 
-// NEIGHBOURS a brick, or NO_BRICK.
+// NEIGHBOURS entries for each brick: the neighbouring brick, or NO_BRICK.
 layout(std430, binding = BINDING_MESH_NEIGHBOURS) readonly buffer Neighbours { uint neighbours[]; };
 
-// A cell by brick and number.
+// A cell, named by its brick and its number in the brick.
 struct CellRef {
   uint brick;
   uint cell;
 };
 
-// The cell at `at` of brick b, whose coordinates may be one less or one more than the brick's own, in one coordinate or
-// (both less, or both more) in two.
+// Returns the cell at `at`, counted from the low corner of brick b. One coordinate may lie one cell below or above the
+// brick, or two may, both below or both above.
 CellRef cell_ref(uint b, ivec3 at) {
   const int n = int(BRICK_CELLS);
   uint slot = NEIGHBOURS;

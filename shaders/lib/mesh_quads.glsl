@@ -1,4 +1,4 @@
-// The four vertices around an edge that the surface crosses.
+// A quad: the four vertices around an edge that the surface crosses.
 #ifndef MESH_QUADS_GLSL
 #define MESH_QUADS_GLSL
 
@@ -16,15 +16,17 @@ struct ListedQuad {
 struct Quad {
   ListedQuad edge;
   uvec4 vertices;  // counter-clockwise about the axis, from the cell at `at`
-  uvec4 corners;   // the same as a triangle names them: number in its brick | which of the brick's coordinates are one less << 24
+  // The same vertices as triangles name them: bits 0-23 are the number in the brick, bits 24-26 are set for the
+  // coordinates in which that brick is one less than the quad's.
+  uvec4 corners;
 };
 
-// The cell at offset -(du, dv) from a quad's edge.
+// Returns the cell at the offset -(du, dv) from the cell at `at`, along the next two axes in cyclic order.
 ivec3 quad_cell(uvec3 at, uint axis, uint du, uint dv) {
   return ivec3(at) - int(du) * ivec3(axis_vector((axis + 1u) % 3u)) - int(dv) * ivec3(axis_vector((axis + 2u) % 3u));
 }
 
-// The vertex of the patch that holds the quad's edge there; as a corner too.
+// Returns the vertex of the patch that holds the quad's edge in that cell: its number, and its corner.
 uvec2 quad_vertex(uint b, uvec3 at, uint axis, uint du, uint dv) {
   ivec3 where = quad_cell(at, axis, du, dv);
   CellRef c = cell_ref(b, where);
@@ -47,7 +49,7 @@ Quad quad(uint q) {
   return Quad(e, uvec4(v0.x, v1.x, v2.x, v3.x), uvec4(v0.y, v1.y, v2.y, v3.y));
 }
 
-// Where the surface crosses the quad's edge, from its low end, in cells.
+// Returns the place where the surface crosses the quad's edge, in cells from the edge's low end.
 float crossing_place(uint q) {
   return place_along(length(vec3(crossings[3u * q], crossings[3u * q + 1u], crossings[3u * q + 2u])));
 }

@@ -1,11 +1,12 @@
-// The samples of a brick, in octets of corners: server/engine/mesh/mesh_samples.h.
+// The samples of a brick in octets, which are groups of eight corners (server/engine/mesh/mesh_samples.h).
 #ifndef MESH_SAMPLES_GLSL
 #define MESH_SAMPLES_GLSL
 
 #include "mesh_constants.glsl"
 
-// Octets 0 to 7: the corners at which the brick begins. 8 to 13: two for each upper face, without its upper edges. 14: the
-// edges at the upper x and y, and x and z. 15: that at the upper y and z, and the last corner, four times.
+// Returns corner n of an octet. Octets 0 to 7 hold the corners that are the brick's own. Octets 8 to 13 hold the upper
+// faces without their upper edges, two octets a face. Octet 14 holds the edges at the upper x and y, and at the upper x
+// and z. Octet 15 holds the edge at the upper y and z, and the last corner four times.
 uvec3 corner_of_octet(uint octet, uint n) {
   uint m = (octet & 1u) * OCTET_CORNERS + n, u = m % BRICK_CELLS, v = m / BRICK_CELLS;
   uint k = n % BRICK_CELLS;

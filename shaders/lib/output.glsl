@@ -1,4 +1,5 @@
-// Where results of points and grids go: 1 or 4 numbers a point.
+// Writes the results of points and grids: the field, 1 number a point, or the field and its gradient, 4 numbers a
+// point.
 #ifndef OUTPUT_GLSL
 #define OUTPUT_GLSL
 
@@ -14,7 +15,7 @@ layout(std430, binding = BINDING_POINTS_RESULTS) writeonly buffer Results { floa
 void write_result(uint place, Field a) {
 #ifdef WITH_GRADIENT
   vec3 g = field_gradient(a);
-  g = mix(g, vec3(0.0), equal(g, vec3(0.0)));  // one zero: a -0 means nothing to a client
+  g = mix(g, vec3(0.0), equal(g, vec3(0.0)));  // turns -0 into 0, since clients should not see a difference
   results[place] = vec4(a.f, g);
 #else
   results[place] = a.f;

@@ -1,4 +1,5 @@
-// The buffers of a resident scene: server/blobtree/tape/parameter_layout.h.
+// Reads the buffers of a resident scene: the records of leaves and operations, the tables and the tape. Their layout is
+// in server/blobtree/tape/parameter_layout.h.
 #ifndef PARAMETERS_GLSL
 #define PARAMETERS_GLSL
 
@@ -12,20 +13,21 @@ layout(std430, binding = BINDING_SCENE_LEAVES) readonly buffer Leaves { vec4 lea
 layout(std430, binding = BINDING_SCENE_OPERATIONS) readonly buffer Operations { vec4 operations[]; };
 layout(std430, binding = BINDING_SCENE_TABLES) readonly buffer Tables { vec4 tables[]; };
 layout(std430, binding = BINDING_SCENE_TAPE) readonly buffer Tape { uvec4 tape[]; };
-// The first two and the tape once more: where they fit, or in windows that do (server/engine/residency/tape_windows.h).
+// The leaves, the operations and the tape are also bound as uniform buffers: whole where they fit, otherwise in windows
+// that fit (server/engine/residency/tape_windows.h).
 layout(std140, binding = BINDING_SCENE_UNIFORM_LEAVES) uniform UniformLeaves { vec4 uniform_leaves[WINDOW_SIZE]; };
 layout(std140, binding = BINDING_SCENE_UNIFORM_OPERATIONS) uniform UniformOperations {
   vec4 uniform_operations[WINDOW_SIZE];
 };
 layout(std140, binding = BINDING_SCENE_UNIFORM_TAPE) uniform UniformTape { uvec4 uniform_tape[WINDOW_SIZE]; };
 
-// On lavapipe a load from a storage buffer inside of a loop is a loop over the lanes, and one from a uniform buffer some
-// 100 instructions a vec4, also where all lanes ask for the same. So with subgroups of 8 each lane loads one word of two
-// vec4s, and takes the others' by shuffles of one instruction: sums are sampled in 0.6 of the time. All invocations of a
-// subgroup must be active.
+// True if the invocations of a subgroup share their loads. On lavapipe a load from a storage buffer inside a loop is
+// itself a loop over the lanes, and a load from a uniform buffer takes some 100 instructions a vec4, even if all lanes
+// load the same. So with subgroups of 8 each lane loads one word of two vec4s, and gets the other words by shuffles,
+// which take one instruction each. All invocations of the subgroup must be active then.
 #define shares_loads() ((UNIFORM_SET & LOADS_ARE_SHARED) != 0u)
 
-// Two consecutive vec4s.
+// Two consecutive vec4s of a record.
 struct Pair {
   vec4 a, b;
 };

@@ -1,6 +1,6 @@
-// The functions of one variable that blends are made of: polynomials (server/operators/polynomial.h) where they are
-// fixed, piecewise cubics (server/operators/profile_table.h) where a scene chooses them, looked up in float32 (hardware
-// filters have weights of 8 bits).
+// The functions of one variable that gradient blends are made of: phi, silhouettes and opening functions. Fixed
+// functions are polynomials (server/operators/polynomial.h). Functions that a scene chooses are tables of piecewise
+// cubics (server/operators/profile_table.h), looked up in float32 because hardware filters have weights of only 8 bits.
 #ifndef PROFILES_GLSL
 #define PROFILES_GLSL
 
@@ -8,9 +8,9 @@
 #include "parameters.glsl"
 #include "polynomials.glsl"  // written at build time
 
-// Mirrors server/operators/profile_table.h.
+// The functions below mirror server/operators/profile_table.h.
 
-// Value, first and second derivative at a place counted in cells.
+// Returns the value, first and second derivative of a table's function at the place x, counted in cells.
 vec3 profile(uint table, int cells, float x) {
   float place = clamp(x, 0.0, float(cells));
   int cell = min(int(place), cells - 1);
@@ -21,7 +21,8 @@ vec3 profile(uint table, int cells, float x) {
   return vec3(value, slope, 2.0 * c.z + 6.0 * s * c.w);
 }
 
-// phi of [G] eq. 20, x within [0, 2], with derivatives. Its lower half mirrors the upper: phi(x) = phi(2 - x) - 1 + x.
+// Returns phi of [G] eq. 20 for x within [0, 2], with its first and second derivatives. The lower half mirrors the
+// upper: phi(x) = phi(2 - x) - 1 + x.
 vec3 phi(float x) {
   float at = clamp(x, 0.0, 2.0);
   bool is_lower = at < 1.0;
@@ -29,11 +30,11 @@ vec3 phi(float x) {
   return vec3(is_lower ? p.x - 1.0 + at : p.x, is_lower ? 1.0 - 2.0 * p.y : 2.0 * p.y, 4.0 * p.z);
 }
 
-// In place of a table: the smooth silhouette, by its polynomial.
+// Stands in place of a table's number for the smooth silhouette, which is a polynomial.
 const uint SMOOTH_SILHOUETTE = 0xffffffffu;
 
-// Where the cells of a silhouette lie: e^2 of Grading in server/operators/profile_table.h, and n and 1 + n e in cells.
-// Made once, outside of Newton's loop.
+// Returns the grading of a silhouette's cells: e^2 of Grading in server/operators/profile_table.h, then n and 1 + n e,
+// in cells. The caller computes it once, outside the loop of Newton's method.
 vec3 silhouette_grading(uint table) {
   if (table == SMOOTH_SILHOUETTE) return vec3(0.0);
   float e = tables[table].x;
@@ -41,8 +42,9 @@ vec3 silhouette_grading(uint table) {
   return vec3(e2, n * float(SILHOUETTE_CELLS), (1.0 + n * e) * float(SILHOUETTE_CELLS));
 }
 
-// The silhouette's profile q(u), u within [0, 1], with derivatives. Exactly (1, 0, 0) at 0. w = 1 - u comes from the
-// caller, who has it without cancellation: beside a fold q depends on its square root.
+// Returns the silhouette's profile q(u) for u within [0, 1], with its first and second derivatives; exactly (1, 0, 0)
+// at 0. The caller passes w = 1 - u, which it can compute without cancellation: beside a fold q depends on the square
+// root of w.
 vec3 silhouette_profile(uint table, vec3 grading, float u, float w) {
   vec3 q;
   if (table == SMOOTH_SILHOUETTE) {
@@ -57,26 +59,26 @@ vec3 silhouette_profile(uint table, vec3 grading, float u, float w) {
   return u > 0.0 ? q : vec3(1.0, 0.0, 0.0);
 }
 
-// The table of the half that the greater field says, of a silhouette as a scene's record names it: bit 30 marks one whose
-// halves differ.
+// Returns the table for the half of a silhouette on the side of the greater field. `silhouette` is the number in a
+// scene's record, whose bit 30 marks a silhouette with two different halves.
 uint silhouette_half(uint silhouette, float f1, float f2) {
   uint second = (silhouette >> 30u & 1u) != 0u && f1 < f2 ? uint(SILHOUETTE_CELLS + 1) : 0u;
   return (silhouette & 0x3fffffffu) + second;
 }
 
-// The places of an opening's ramps begin and end here, as server/operators/profile_table.h says.
+// The places in an opening's ramps begin and end with these numbers, as server/operators/profile_table.h says.
 const float FIRST_PLACE = 0.0625, LAST_PLACE = 0.99999994;
 const uint RAMP_DIGITS = 1u << 25u;  // floatBitsToUint(1.0) - floatBitsToUint(FIRST_PLACE)
 
-// How far alpha is beyond a sample, in steps.
+// Returns how far alpha lies beyond a sample, in steps between samples.
 float beyond_sample(vec4 head, float number, float alpha) {
   precise float beyond = (alpha - number * head.x) - number * head.y;
   return beyond * head.z;
 }
 
-// tan(theta) of an opening function and its derivative, at alpha within [0, pi], from opening_table() of
-// server/operators/profile_table.h. The leading digits of a place are its cell's number. Where a cell starts is exact, so
-// that what lies beyond it keeps all of its digits.
+// Returns tan(theta) of an opening function and its derivative by alpha, for alpha within [0, pi], from opening_table()
+// of server/operators/profile_table.h. The leading bits of a place are the number of its cell. The start of a cell is
+// an exact float, so that the distance from it keeps all of its digits.
 vec2 opening_tangent(uint table, float alpha) {
   vec4 head = tables[table];
   float from = alpha - head.x;
@@ -88,7 +90,8 @@ vec2 opening_tangent(uint table, float alpha) {
   uint cell = digits - floatBitsToUint(FIRST_PLACE) + (is_left ? RAMP_DIGITS : 0u) >> shift;
   bool is_sampled = has_sampled_openings() && head.w < 0.0;
   if (is_sampled) {
-    // alpha / step is rounded by up to a thousandth of a cell, over whose end the second derivative may jump.
+    // The rounding of alpha / step may miss the cell by up to a thousandth of a cell, and the second derivative may
+    // jump between cells. So the cell's number is corrected with the exact distance.
     float number = floor(alpha * head.z);
     number = clamp(number + floor(beyond_sample(head, number, alpha)), 0.0, -1.0 - head.w);
     per_unit = head.z;

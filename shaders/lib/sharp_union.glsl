@@ -1,4 +1,4 @@
-// Minima and maxima: one of two fields.
+// A sharp choice between two fields, which minima, maxima and differences are made of.
 #ifndef SHARP_UNION_GLSL
 #define SHARP_UNION_GLSL
 
@@ -8,7 +8,7 @@
 #include "seams.glsl"
 #endif
 
-// Returns b if take_b, else a. Where normals are made, it evens out the seam between the two.
+// Returns b if take_b, else a. In kernels that compute normals, it also evens out the seam between the two.
 Field sharp_union(Field a, Field b, bool take_b) {
   Field r = select_field(a, b, take_b);
 #ifdef CELL_SIZE

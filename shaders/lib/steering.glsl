@@ -1,4 +1,4 @@
-// The angle between two fields' directions, in the frame of the operator that follows it.
+// Computes the angle between two fields' directions, in the frame of the operator that follows it.
 #ifndef STEERING_GLSL
 #define STEERING_GLSL
 
@@ -6,12 +6,12 @@
 #include "field.glsl"
 #include "parameters.glsl"
 
-// Lengths of gradients are taken to differ by this factor at most: kMostRatio of server/operators/bulge_elimination.h.
+// The ratio of two gradients' lengths is clamped to this factor: kMostRatio of server/operators/bulge_elimination.h.
 const float MOST_RATIO = 8.0;
 
-// An operand's direction in the frame of the operator at `record`, with lengths and angles as they are before the
-// transforms above the operator: Affine::gradient_frame() of server/blobtree/geometry/affine.h. A record that has no frame before
-// it is that of an operator that follows no angle, and the result does not count.
+// Returns a field with its direction in the frame of the operator at `record`, with lengths and angles as they are
+// before the transforms above the operator: Affine::gradient_frame() of server/blobtree/geometry/affine.h. If the
+// operator follows no angle, its record may have no frame before it, and the result is not used.
 Field in_frame(Field a, uint record) {
   if (has_frames()) {
     uint at = max(record, 2u) - 2u;
@@ -25,13 +25,13 @@ Field in_frame(Field a, uint record) {
   return a;
 }
 
-// The angle between two fields' directions: its cosine, 0 where one vanishes, 1 less the cosine, which keeps its digits
-// where directions are almost the same, and |first| / |second|.
+// The angle between two fields' directions. `cosine` is 0 where one of them vanishes; `versine` is 1 - cosine, computed
+// so that it keeps its digits where the directions are almost the same; `ratio` is |first| / |second|.
 struct Angle {
   Dual cosine, versine, ratio;
 };
 Angle angle_between(Field a, Field b) {
-  // Directions that are too long to be squared are taken shorter.
+  // Directions that are too long to be squared are scaled down.
   float longest1 = max(max(abs(a.d.x), abs(a.d.y)), abs(a.d.z)), longest2 = max(max(abs(b.d.x), abs(b.d.y)), abs(b.d.z));
   float scale1 = longest1 > 1e15 ? 1.0 / longest1 : 1.0, scale2 = longest2 > 1e15 ? 1.0 / longest2 : 1.0;
   a.d *= scale1;
@@ -50,7 +50,7 @@ Angle angle_between(Field a, Field b) {
 #endif
   Dual cosine = times(d12, reciprocal(times(square_root(d11), square_root(d22))));
   Dual ratio = (scale2 / scale1) * square_root(over(d11, d22));
-  // Rounding may pass 1, where the cosine has no gradient.
+  // Rounding may make the cosine exceed 1. There it is set to 1, without a gradient.
   cosine = select_dual(cosine, dual(value_of(cosine) > 0.0 ? 1.0 : -1.0), abs(value_of(cosine)) >= 1.0);
   vec3 apart = a.d / sqrt(value_of(d11)) - b.d / sqrt(value_of(d22));
   Dual versine = chain(cosine, 0.5 * dot(apart, apart), -1.0);

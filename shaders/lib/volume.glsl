@@ -1,5 +1,6 @@
-// The `volume` representation of an operator: looked up trilinearly in float32 (hardware filters have weights of 8
-// bits). Mirrors server/operators/volume.h. A drop-in for gradient_blend().
+// Evaluates an operator from its volume, a table of samples over (f1, f2, theta); volume_blend() can replace
+// gradient_blend(). The volume is interpolated trilinearly in float32, because hardware filters have weights of only 8
+// bits. Mirrors server/operators/volume.h.
 #ifndef VOLUME_GLSL
 #define VOLUME_GLSL
 
@@ -7,7 +8,8 @@
 #include "bindings.glsl"
 #include "gradient_blend.glsl"
 
-// (g, dg/df1, dg/df2, dg/dtheta) at size^3 nodes over f1, f2 in [0, 1] and theta in [0, pi/4], f1 fastest.
+// A volume holds (g, dg/df1, dg/df2, dg/dtheta) at size^3 nodes over f1, f2 in [0, 1] and theta in [0, pi/4]; f1 varies
+// fastest.
 layout(std430, binding = BINDING_SCENE_FIRST_VOLUME) readonly buffer Volume0 { vec4 volume0[]; };
 layout(std430, binding = BINDING_SCENE_FIRST_VOLUME + 1) readonly buffer Volume1 { vec4 volume1[]; };
 layout(std430, binding = BINDING_SCENE_FIRST_VOLUME + 2) readonly buffer Volume2 { vec4 volume2[]; };
@@ -44,7 +46,7 @@ VolumeCell volume_cell(float f1, float f2, float theta, uint slot, uint size) {
   vec4 n010 = volume_node(slot, at + size), n110 = volume_node(slot, at + size + 1u);
   vec4 n001 = volume_node(slot, up), n101 = volume_node(slot, up + 1u);
   vec4 n011 = volume_node(slot, up + size), n111 = volume_node(slot, up + size + 1u);
-  // On the diagonal, where max and folds break, a cell is two prisms: linear on either side.
+  // A cell on the diagonal f1 = f2, where maxima and bulges have a fold, is divided into two prisms and linear in each.
   bool is_diagonal = cell.x == cell.y, is_lower = s.x >= s.y;
   if (is_diagonal && is_lower) {
     n010 = n000 + n110 - n100;
@@ -70,9 +72,9 @@ VolumeCell volume_cell(float f1, float f2, float theta, uint slot, uint size) {
   return r;
 }
 
-// g at t = tan(theta) within [0, 1], f1 and f2 >= 0. Beyond 1 the nodes end: the gradient blend is homogeneous there
-// about (t/2, t/2), any other operator is continued about the origin (`profile_like` tells which). A field of 0 leaves
-// the other untouched, to the bit.
+// Returns g at t = tan(theta) within [0, 1], for f1 and f2 >= 0. The nodes end at 1. Beyond, the gradient blend is
+// homogeneous about (t/2, t/2), and any other operator is continued homogeneously about the origin; `profile_like` is
+// true for the gradient blend. Where one field is 0, the result is the other one, to the bit.
 Blend volume_blend(float f1, float f2, float t, uint slot, uint size, bool profile_like) {
   float hi = max(f1, f2);
   float h = profile_like ? 0.5 * t : 0.0;
@@ -85,7 +87,7 @@ Blend volume_blend(float f1, float f2, float t, uint slot, uint size, bool profi
   b.g = is_beyond ? h + scale * (v.x - h) : v.x;
   b.g1 = v.y;
   b.g2 = v.z;
-  // Continued about the origin, the partial along the larger field is that of scale * g(p).
+  // If the operator is continued about the origin, the partial along the larger field is that of scale * g(p).
   bool turns = is_beyond && !profile_like;
   bool exchanged = f1 < f2;
   if (turns && !exchanged) b.g1 = v.x - p2 * v.z;
@@ -93,9 +95,9 @@ Blend volume_blend(float f1, float f2, float t, uint slot, uint size, bool profi
 #ifdef WITH_GRADIENT
   float theta_t = 1.0 / (1.0 + t * t);
   float gt = v.w * theta_t;
-  vec2 g_t = vec2(c.v_theta.y, c.v_theta.z) * theta_t;  // of g1 and g2
+  vec2 g_t = vec2(c.v_theta.y, c.v_theta.z) * theta_t;  // the derivatives of g1 and g2 by t
   float g11 = c.v1.y, g12 = 0.5 * (c.v1.z + c.v2.y), g22 = c.v2.z;
-  // How p moves with t, and the scale.
+  // The derivatives of the scale, of h and of p by t.
   float scale_t = profile_like ? 0.5 * (scale - 1.0) / (1.0 - h) : 0.0;
   float h_t = profile_like ? 0.5 : 0.0;
   vec2 p_t = is_beyond ? h_t * (1.0 - 1.0 / scale) - (vec2(p1, p2) - h) * (scale_t / scale) : vec2(0.0);
@@ -106,7 +108,8 @@ Blend volume_blend(float f1, float f2, float t, uint slot, uint size, bool profi
   b.g1t = g_t.x + g11 * p_t.x + g12 * p_t.y;
   b.g2t = g_t.y + g12 * p_t.x + g22 * p_t.y;
   if (turns) {
-    // Second partials of m G(lo / m) follow from the one along the smaller field.
+    // The operator is m G(lo / m), with m the larger field, so all second partials follow from the one along the
+    // smaller.
     float p = exchanged ? p1 : p2, g_lo_lo = (exchanged ? g11 : g22) / scale;
     float g_lo_t = exchanged ? g_t.x : g_t.y, g_hi_t = gt - p * g_lo_t;
     b.g11 = exchanged ? g_lo_lo : p * p * g_lo_lo;

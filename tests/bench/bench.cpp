@@ -1,4 +1,4 @@
-// What the engine does in a second, in process: tests/bench/run prints it as a table with ratios.
+// Measures what the engine does in a second, in process. tests/bench/run prints it as a table with ratios.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -31,7 +31,7 @@ engine::Engine& the_engine() {
   return *engine;
 }
 
-// Without tier two.
+// This engine does without tier two.
 engine::Engine& interpreting_engine() {
   static const auto engine = make_engine({.is_on = false});
   return *engine;
@@ -67,7 +67,7 @@ void join_all(v1::Scene& scene, Join join) {
   }
 }
 
-// Raw soft spheres of radius R in the cube [-1, 1]^3, each overlapping a few others whatever their number.
+// Makes raw soft spheres of radius R in the cube [-1, 1]^3. Each overlaps a few others, whatever their number is.
 v1::Scene soft_spheres(int count, Join join, double reach = 1) {
   test_support::Random random(42);
   v1::Scene scene;
@@ -100,7 +100,7 @@ void mesh(benchmark::State& state, const v1::Scene& scene, double cell) {
   std::size_t vertices = 0, cells = 0;
   (void)the_engine().mesher().mesh(*lease, {.cell_size = cell}, {});  // kernels compile when they first run
   for (auto _ : state) {
-    // Requests that differ by what makes no difference: a mesh that was made is kept.
+    // A mesh that was made is kept, so the requests differ by a number that does not change the mesh.
     const auto m = the_engine().mesher().mesh(*lease, {.cell_size = cell, .bricks_at_once = ++seen}, {});
     if (!m.ok()) return state.SkipWithError(std::string(m.status().message()).c_str());
     vertices = m->positions.size() / 3;
@@ -120,7 +120,7 @@ void mesh_again(benchmark::State& state, const v1::Scene& scene, double cell) {
   }
 }
 
-// A primitive moved to and fro by a cell, and its mesh followed: from the edited scene to the bricks that changed.
+// Moves a primitive to and fro by a cell and follows its mesh: from the edited scene to the bricks that changed.
 void track(benchmark::State& state, v1::Scene scene, double cell) {
   engine::SceneLease lease = resident(scene);
   engine::MeshTracker tracker(the_engine().mesher(), {.cell_size = cell});
@@ -169,7 +169,7 @@ void points(benchmark::State& state, const v1::Scene& scene, ResultLayout layout
   count_points(state, count);
 }
 
-// The same kernel alone, value and gradient: points and results stay on the device.
+// Measures the same kernel alone, with value and gradient. Points and results stay on the device.
 void bare_kernel(benchmark::State& state, const v1::Scene& scene) {
   constexpr std::size_t kCount = 1 << 20;
   const engine::SceneLease lease = resident(scene);

@@ -1,4 +1,4 @@
-// What many clients with small requests get of one daemon: clients_bench ADDRESS [SECONDS]
+// Measures what many clients with small requests get of one daemon: clients_bench ADDRESS [SECONDS]
 //
 // Each client has a connection of its own and one call open at a time. One thread drives all of them, so that their own
 // work takes as little of the machine as it can.
@@ -39,7 +39,7 @@ void check(const grpc::Status& status) {
   std::exit(1);
 }
 
-// The sum of raw soft spheres in the cube [-1, 1]^3, as in bench.cpp.
+// Returns the sum of raw soft spheres in the cube [-1, 1]^3, as in bench.cpp.
 v1::Scene soft_spheres() {
   test_support::Random random(42);
   v1::Scene scene;
@@ -62,7 +62,7 @@ std::shared_ptr<grpc::Channel> connect(const std::string& address) {
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
 }
 
-// One client with one kind of request, over and over.
+// One client that sends one kind of request over and over.
 class Caller {
  public:
   virtual ~Caller() = default;
@@ -124,7 +124,7 @@ struct Row {
   double calls_per_second = 0, mean = 0, p50 = 0, p99 = 0;  // latencies in microseconds
 };
 
-// `callers` with one call each open all the time, or in turn with one call open in all.
+// Measures `callers` that each keep one call open, or that take turns with one open call in all.
 Row measure(const std::vector<std::unique_ptr<Caller>>& callers, bool in_turn, double seconds) {
   grpc::CompletionQueue queue;
   std::vector<double> latencies;
@@ -134,7 +134,7 @@ Row measure(const std::vector<std::unique_ptr<Caller>>& callers, bool in_turn, d
     callers[next++ % total]->start(queue);
     ++open;
   };
-  // Connections and kernels first.
+  // The first calls make the connections and compile the kernels.
   for (std::size_t i = 0; i < total; ++i) {
     start_next();
     void* tag = nullptr;
@@ -188,7 +188,7 @@ void compare(const std::string& name, const std::function<std::unique_ptr<Caller
   std::printf("%-32s %-14s %9.2f\n\n", name.c_str(), "ratio", all.calls_per_second / one.calls_per_second);
 }
 
-// A small call at a time while another client has `work` done over and over.
+// Measures one small call at a time while another client does `work` over and over.
 void beside(const std::string& name, const std::string& address, double seconds,
             const std::function<void(grpc::ClientContext&)>& work) {
   std::vector<std::unique_ptr<Caller>> callers;

@@ -1,5 +1,5 @@
-// What the device takes to fetch from a 3-D texture of four float32 channels, filtered: the papers (Gourmel et al.
-// 2013, section 4.2) keep g and its partials there. The measure of what g costs when it is computed.
+// Measures filtered fetches from a 3-D texture of four float32 channels. The papers (Gourmel et al. 2013, section 4.2)
+// keep g and its partials in such a texture, so the cost of a computed g is compared with this.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -28,7 +28,7 @@ std::uint32_t memory_type(const vk::raii::PhysicalDevice& physical, std::uint32_
   throw std::runtime_error("no such memory");
 }
 
-// A device, a texture of size^3 and the kernel that fetches from it.
+// Owns a device, a texture of size^3 and the kernel that fetches from it.
 class Fetches {
  public:
   explicit Fetches(std::uint32_t size) : size_(size) {

@@ -1,4 +1,4 @@
-// What an operator costs: to make it resident in either representation, and to evaluate it.
+// Measures what an operator costs: making it resident in either representation, and evaluating it.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -35,7 +35,7 @@ operators::Operator gradient(int size, const Silhouette& silhouette) {
   return operators::Gradient{.silhouette = silhouette, .volume = size};
 }
 
-// From parameters to resident, with partials.
+// Makes a volume with partials resident, from the operator's parameters.
 void build_volume(benchmark::State& state, int size, const Silhouette& silhouette) {
   for (auto _ : state) benchmark::DoNotOptimize(devices().volumes->get(gradient(size, silhouette)).value());
   state.counters["nodes/s"] =
@@ -53,8 +53,8 @@ void build_profile(benchmark::State& state, const Silhouette& silhouette, const 
   }
 }
 
-// Values and first and second partials at random fields: of a volume of `size`, or of the smooth profile where it is 0.
-// `is_first`: of that, no second ones.
+// Evaluates values and first and second partials at random fields: of a volume of `size`, or of the smooth profile if
+// `size` is 0. With `is_first` the profile yields no second partials.
 void evaluate(benchmark::State& state, int size, bool is_first = false) {
   Devices& d = devices();
   test_support::Random random(2);

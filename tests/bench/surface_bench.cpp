@@ -1,4 +1,4 @@
-// What questions about a surface cost: rays from all around and projections of points near it.
+// Measures what questions about a surface cost: rays from all around, and projections of points near it.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -25,7 +25,7 @@ engine::Engine& the_engine() {
   return *engine;
 }
 
-// As in bench.cpp: raw soft spheres in the cube [-1, 1]^3, each overlapping a few others.
+// Returns raw soft spheres in the cube [-1, 1]^3, each overlapping a few others, as in bench.cpp.
 v1::Scene soft_spheres(int count) {
   test_support::Random random(42);
   v1::Scene scene;
@@ -56,7 +56,7 @@ struct Rays {
   std::vector<float> origins, directions;
 };
 
-// Of a picture: parallel, through a lattice over the scene's longest extent.
+// Returns the parallel rays of a picture, through a lattice over the scene's longest extent.
 Rays picture(const blobtree::Box& box, int side) {
   Rays rays;
   const dvec3 centre = (box.min + box.max) * 0.5, size = box.max - box.min;
@@ -71,7 +71,7 @@ Rays picture(const blobtree::Box& box, int side) {
   return rays;
 }
 
-// Between random points of the scene's box: no two alike.
+// Returns rays between random points of the scene's box. No two are alike.
 Rays scattered(const blobtree::Box& box, int count) {
   test_support::Random random(3);
   const dvec3 size = box.max - box.min;
@@ -107,7 +107,7 @@ void cast(benchmark::State& state, const v1::Scene& scene, std::optional<double>
   state.counters["hit"] = static_cast<double>(hit) / count;
 }
 
-// Where the surface lies, which the first rays of a scene wait for.
+// Measures the search for the surface, which the first rays of a scene wait for.
 void find_surface(benchmark::State& state, const v1::Scene& scene, std::optional<double> cell_size) {
   const engine::SceneLease lease = the_engine().make_resident(scene).value();
   std::size_t bricks = 0;
@@ -119,7 +119,7 @@ void find_surface(benchmark::State& state, const v1::Scene& scene, std::optional
   state.counters["bricks"] = static_cast<double>(bricks);
 }
 
-// Vertices of a mesh, moved by up to two cells.
+// Projects vertices of a mesh that were moved by up to two cells.
 void project(benchmark::State& state, const v1::Scene& scene, std::optional<double> cell_size) {
   const engine::SceneLease lease = the_engine().make_resident(scene).value();
   const double cell = cell_size ? *cell_size : engine::automatic_cell_size(lease->tape(), {}).value();
@@ -146,7 +146,8 @@ void add(const std::string& name, Function f) {
   benchmark::RegisterBenchmark(name.c_str(), f)->Unit(benchmark::kMillisecond)->UseRealTime()->MinWarmUpTime(0.01);
 }
 
-// `cell`: of the scenes whose automatic cell is as small as the server admits, so that a row does not depend on that.
+// `cell` is stated for scenes whose automatic cell is as small as the server admits, so that a row does not depend on
+// that limit.
 template <class Scene>
 void add_scene(const std::string& name, const Scene& scene, std::optional<double> cell = std::nullopt) {
   add("rays/" + name + "/picture of 256 x 256", [scene, cell](benchmark::State& s) {

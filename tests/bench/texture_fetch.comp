@@ -1,4 +1,5 @@
-// As many fetches from a 3-D texture as invocations, each at a place of its own: what the papers' blends cost at least.
+// Each invocation fetches once from a 3-D texture, at a place of its own. This is the least that the papers' blends
+// cost.
 #version 450
 
 layout(local_size_x = 64) in;

@@ -1,8 +1,8 @@
-// What the way to a daemon costs: transport_bench TCP_ADDRESS UNIX_ADDRESS [REPETITIONS]
+// Measures what the way to a daemon costs: transport_bench TCP_ADDRESS UNIX_ADDRESS [REPETITIONS]
 //
-// A million points and their values and gradients by the client library: to one daemon over TCP, to another over a unix
-// socket and through shared memory, and to services that take as many bytes and answer as many, over the same
-// transports. The transports take turns; the best of the repetitions counts, for the machine is shared.
+// The client library sends a million points and receives their values and gradients: from one daemon over TCP, from
+// another over a unix socket and through shared memory, and from services that take and answer as many bytes over the
+// same transports. The transports take turns. The best of the repetitions counts, because the machine is shared.
 #include <grpcpp/grpcpp.h>
 #include <isofield/client.h>
 #include <signal.h>
@@ -38,7 +38,7 @@ void check(const absl::Status& status) {
   std::exit(1);
 }
 
-// The sum of raw soft spheres in the cube [-1, 1]^3, as in bench.cpp, moved along x.
+// Returns the sum of raw soft spheres in the cube [-1, 1]^3, as in bench.cpp, moved along x.
 v1::Scene soft_spheres(int count, double offset) {
   test_support::Random random(42);
   v1::Scene scene;
@@ -54,7 +54,7 @@ v1::Scene soft_spheres(int count, double offset) {
   return scene;
 }
 
-// Answers a point with the bytes of a value and a gradient, whatever they are.
+// Answers each point with as many bytes as a value and a gradient have.
 class Echo final : public v1::FieldService::Service {
   grpc::Status EvaluateStream(
       grpc::ServerContext*,
@@ -74,7 +74,8 @@ class Echo final : public v1::FieldService::Service {
   }
 };
 
-// A process that serves Echo, with the daemon's settings, for as long as this one lives. Before gRPC is used here.
+// Owns a process that serves Echo with the daemon's settings until this object ends. It must be made before gRPC is
+// used here.
 class EchoProcess {
  public:
   explicit EchoProcess(const std::string& listen) {
@@ -132,7 +133,7 @@ Client connect(const std::string& address, bool shared_memory = false) {
 void compare(std::vector<Row>& rows, const v1::SceneRef& scene, std::span<const float> xyz, int repetitions) {
   for (Row& row : rows) row.best = 1e9;
   std::vector<float> results(4 * xyz.size() / 3);
-  for (int i = 0; i <= repetitions; ++i) {  // connections and kernels in the first
+  for (int i = 0; i <= repetitions; ++i) {  // the first round makes connections and compiles kernels
     for (Row& row : rows) {
       const Clock::time_point start = Clock::now();
       check(row.client.evaluate(scene, xyz, true, results));
@@ -169,7 +170,7 @@ void run(const std::string& tcp, const std::string& socket, int repetitions) {
     int spheres;
     double offset;
   };
-  // Where no sphere is near no kernel runs: that is the daemon's part of the transport alone.
+  // If no sphere is near, no kernel runs, and the row shows only the daemon's part of the transport.
   for (const Case& c : {Case{"8-spheres", 8, 0}, Case{"1-sphere", 1, 0}, Case{"64-spheres-far-away", 64, 100}}) {
     for (const std::string& daemon : {tcp, socket}) {
       check(connect(daemon).put_scene(c.name, soft_spheres(c.spheres, c.offset)).status());

@@ -38,7 +38,7 @@ TEST(Errors, SayWhatToDo) {
       from_grpc(grpc::Status(grpc::StatusCode::UNAVAILABLE, "Socket closed"), "unix:/x").message(), "was lost"));
   EXPECT_TRUE(absl::StrContains(from_grpc(grpc::Status(grpc::StatusCode::UNIMPLEMENTED, ""), "unix:/x").message(),
                                 "this version"));
-  // The server's own words stay as they are.
+  // The server's own message stays as it is.
   EXPECT_EQ(from_grpc(grpc::Status(grpc::StatusCode::NOT_FOUND, "no scene \"a\""), "unix:/x"),
             absl::NotFoundError("no scene \"a\""));
   EXPECT_TRUE(from_grpc(grpc::Status::OK, "unix:/x").ok());

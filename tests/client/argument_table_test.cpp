@@ -14,7 +14,7 @@ class ArgumentTableTest : public ::testing::Test {
   absl::StatusOr<std::unique_ptr<ArgumentTable>> open(const std::string& text) {
     return ArgumentTable::open(write_file(directory_.path("t.csv"), text));
   }
-  // All numbers of the columns at these places.
+  // Reads all numbers of the columns at these places.
   absl::StatusOr<std::vector<float>> read(const std::string& text, std::vector<std::size_t> places) {
     auto table = open(text);
     if (!table.ok()) return table.status();

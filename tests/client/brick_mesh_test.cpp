@@ -1,4 +1,4 @@
-// Meshes by bricks: joined in the documented order, and malformed messages refused.
+// Tests that meshes by bricks are joined in the documented order, and that malformed messages are refused.
 #include <absl/strings/match.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using Place = BrickMesh::Place;
 
-// Bits of a corner that name the brick whose x, y, z is one less.
+// These bits of a corner name the brick whose x, y or z is one less.
 constexpr std::uint32_t kBelowX = 1u << 24, kBelowY = 1u << 25, kBelowZ = 1u << 26;
 
 void set_indices(const std::vector<std::uint32_t>& numbers, std::uint64_t columns, v1::Tensor& tensor) {
@@ -32,7 +32,7 @@ v1::Tensor places(const std::vector<std::uint32_t>& numbers) {
   return tensor;
 }
 
-// A message as the server makes it.
+// Makes a message as the server does.
 class Message {
  public:
   // Vertex i of the brick is at (mark, i, 0), with the normal (0, 0, 1).
@@ -60,7 +60,7 @@ class Message {
   std::vector<float> positions_, normals_;
 };
 
-// Two bricks: the second's triangles name vertices of the first, which is before it along x.
+// The triangles of the second brick name vertices of the first, which is before it along x.
 Message two_bricks() {
   Message message;
   message.add({4, 5, 6}, 3, {0, 1, 2}, 1).add({5, 5, 6}, 2, {0, 1, kBelowX | 2, 1, kBelowX | 0, kBelowX | 2}, 2);
@@ -86,7 +86,8 @@ TEST(BrickMesh, CornersNameAllSevenBricksBefore) {
   Message message;
   std::vector<std::uint32_t> corners;
   for (std::uint32_t i = 0; i < 8; ++i) {
-    // Of the octants of a cube the nearer to the origin are the brick's that are one less.
+    // The corners of the last brick name vertices of the eight bricks of a cube: the cleared bits of i are the axes
+    // along which the named brick is one less.
     const Place place{8 + (i & 1), 8 + (i >> 1 & 1), 8 + (i >> 2)};
     for (int repeat = 0; repeat < 3; ++repeat) corners.push_back((~i & 7) << 24);
     message.add(place, 1, i == 7 ? corners : std::vector<std::uint32_t>(), static_cast<float>(i));
@@ -101,7 +102,7 @@ TEST(BrickMesh, CornersNameAllSevenBricksBefore) {
 }
 
 TEST(BrickMesh, JoinsInOrderOfPlace) {
-  // As the contract states it: floor(z / 8), then the interleaved bits.
+  // The order is the contract's: floor(z / 8), then the interleaved bits.
   const auto order = [](const Place& p) {
     std::uint64_t morton = 0;
     for (int bit = 0; bit < 21; ++bit) {
@@ -159,7 +160,7 @@ TEST(BrickMesh, NormalsMayBeAbsentFromAll) {
   ASSERT_TRUE(bricks.apply(Message().add({9, 9, 9}, 1, {}).bricks()).ok());
   const auto mixed = bricks.join();
   EXPECT_EQ(mixed.status().code(), absl::StatusCode::kInternal);
-  EXPECT_TRUE(absl::StrContains(mixed.status().message(), "normals of 1 of 6")) << mixed.status();
+  EXPECT_TRUE(absl::StrContains(mixed.status().message(), "1 of 6 vertices have normals")) << mixed.status();
 }
 
 TEST(BrickMesh, EmptyMessagesChangeNothing) {
@@ -170,7 +171,7 @@ TEST(BrickMesh, EmptyMessagesChangeNothing) {
   EXPECT_EQ(bricks.brick_count(), 0u);
 }
 
-// Refused, and nothing of it is kept.
+// Checks that the message is refused, and that nothing of it is kept.
 void expect_malformed(const v1::MeshBricks& message, const std::string& part) {
   BrickMesh bricks;
   ASSERT_TRUE(bricks.apply(Message().add({0, 0, 0}, 1, {}).bricks()).ok());
@@ -218,18 +219,18 @@ TEST(BrickMesh, RefusesMalformedArrays) {
 
 TEST(BrickMesh, RefusesCornersOfVerticesThatAreNotThere) {
   expect_malformed(Message().add({1, 1, 1}, 2, {0, 1, 2}).bricks(), "brick (1, 1, 1), which has 2 vertices");
-  // Bits that mean nothing.
+  // These bits have no meaning.
   expect_malformed(Message().add({1, 1, 1}, 2, {0, 1, 1u << 27}).bricks(), "no such vertex");
   expect_malformed(Message().add({1, 1, 1}, 2, {0, 1, 1u << 31}).bricks(), "no such vertex");
-  // Before the lattice's first brick.
+  // These corners name bricks before the lattice's first brick.
   expect_malformed(Message().add({0, 1, 1}, 2, {0, 1, kBelowX}).bricks(), "no such vertex");
   expect_malformed(Message().add({1, 0, 1}, 2, {0, 1, kBelowY}).bricks(), "no such vertex");
   expect_malformed(Message().add({1, 1, 0}, 2, {0, 1, kBelowZ}).bricks(), "no such vertex");
-  // Of other bricks only joining can tell.
+  // Only joining can tell whether a vertex of another brick exists.
   BrickMesh bricks;
   ASSERT_TRUE(bricks.apply(Message().add({4, 5, 6}, 3, {}).add({5, 5, 6}, 1, {0, 0, kBelowX | 3}).bricks()).ok());
   EXPECT_EQ(bricks.join().status().code(), absl::StatusCode::kInternal);
-  EXPECT_TRUE(absl::StrContains(bricks.join().status().message(), "vertex 3 of a brick beside it that has 3"))
+  EXPECT_TRUE(absl::StrContains(bricks.join().status().message(), "vertex 3 of a neighbouring brick that has 3"))
       << bricks.join().status();
 }
 

@@ -79,7 +79,7 @@ TEST_F(CliTest, EvaluatesPoints) {
 TEST_F(CliTest, RaysThatAreFedBackMeanTheirHits) {
   write_file(path("ball.json"), kBall);
   const std::string ball = path("ball.json");
-  // The last one runs along the plane.
+  // The last ray runs along the plane.
   const std::string origins = "id,z,y,x\n7,1,0,0\n8,2,0,0.25\n9,3,1,0\n10,4,0,0\n";
   write_file(path("origins.csv"), origins);
   write_file(path("directions.csv"), "dx,dy,dz\n0,0,-1\n0,0,-2\n0,-1,-1\n2,-1,0\n");
@@ -108,7 +108,7 @@ TEST_F(CliTest, RaysThatAreFedBackMeanTheirHits) {
   EXPECT_TRUE(absl::StrContains(out_, "\"points\":3") && absl::StrContains(out_, "hits.npy: 1 row is left out"))
       << out_;
   expect_hits(*read_file(path("v.csv")));
-  // Values have no columns of points, so they are refused instead of read from other columns.
+  // These values have no columns of points, so they are refused instead of read from other columns.
   EXPECT_EQ(run("eval " + ball + " --points -", "u,v,value\n0,0,0.5\n"), 4);
   EXPECT_TRUE(absl::StrContains(err_, "<stdin>:1: the columns are u, v, value; expected x, y and z")) << err_;
   EXPECT_EQ(run("ray " + ball + " --origins - --directions -", "1 2 3\n"), 2);

@@ -185,7 +185,7 @@ TEST_F(ClientTest, ErrorsOfSourceAndSinkEndTheStream) {
 TEST_F(ClientTest, AnUnknownSceneEndsTheStream) {
   EXPECT_EQ(client_.evaluate(scene_by_name("none"), points(100000), false).status().code(),
             absl::StatusCode::kNotFound);
-  // Also when there is nothing to evaluate.
+  // The stream fails even if there is nothing to evaluate.
   EXPECT_EQ(client_
                 .evaluate(
                     scene_by_name("none"), false, [](std::vector<float>&) { return absl::OkStatus(); },
@@ -210,7 +210,7 @@ TEST_F(ClientTest, RetriesReadsOnly) {
   server_.unavailable_for = 1;
   EXPECT_EQ(client_.put_scene("a", ball()).status().code(), absl::StatusCode::kUnavailable);
   EXPECT_EQ(server_.writes, 1);
-  // What the server refuses is not asked again.
+  // The client does not repeat what the server refuses.
   server_.reads = 0;
   EXPECT_EQ(client_.get_scene("none").status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(server_.reads, 1);
@@ -309,7 +309,7 @@ TEST_F(ClientTest, StreamsHaveADeadlineWhenAsked) {
 }
 
 TEST(Client, APortThatNobodyListensAtIsTold) {
-  // Port 1 of the loopback is nobody's on a machine of today.
+  // No usual program listens at port 1 of the loopback address.
   auto client = Client::connect("127.0.0.1:1");
   ASSERT_TRUE(client.ok());
   const auto status = client->info().status();

@@ -1,3 +1,4 @@
+// A test fixture that runs the command line tool against a fake server inside the test process.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,10 +13,10 @@
 
 namespace isofield {
 
-// Runs the command itself, as a user does.
+// Runs the command itself, as a user does. Owns the server and a temporary directory.
 class CommandFixture : public ::testing::Test {
  protected:
-  // Returns the exit code; standard output and error go to out_ and err_.
+  // Returns the exit code. Standard output and error go to out_ and err_.
   int run(const std::string& arguments, const std::string& input = "") {
     write_file(path("in"), input);
     const std::string command = std::string(ISOFIELD_COMMAND) + " --server " + address_ + " " + arguments + " <" +

@@ -86,7 +86,7 @@ TEST(Detect, WhatCannotBeReadIsNamedAndAnsweredWithWhatCan) {
       {"\xFF\xFEx\0", "text in UTF-16"},
       {"\x01\x02\x03" + zeros, "binary data of an unknown kind"},
       {"", "the file is empty"},
-      {"some words\n", "nothing in it says what it is"},
+      {"some words\n", "its format cannot be recognised"},
   };
   for (const auto& [content, what] : files) {
     for (const char* const name : {"a.dat", "a"}) {

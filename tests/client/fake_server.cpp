@@ -198,7 +198,7 @@ class FakeServer::Fields : public v1::FieldService::Service {
                             grpc::ServerWriter<v1::EvaluateGridResponse>* writer) override {
     if (auto status = owner_.admit_read(); !status.ok()) return status;
     owner_.max_answer_bytes = request->max_answer_bytes();
-    // The first layer whole, others row by row, and the last row point by point.
+    // The answer has the first layer whole, the others row by row, and the last row point by point.
     const std::uint64_t nx = request->counts(0), ny = request->counts(1), nz = request->counts(2);
     const auto value = [&](std::uint64_t i, std::uint64_t j, std::uint64_t k) {
       return static_cast<float>(request->origin(0) + request->spacing(0) * static_cast<double>(i) +
@@ -263,7 +263,7 @@ class FakeServer::Meshes : public v1::MeshService::Service {
     }
     if (owner_.wrong_summary) response.mutable_summary()->set_vertices(mesh.vertex_count() + 1);
     writer->Write(response);
-    // Parts: halves of the vertices, then all triangles.
+    // The mesh comes in parts: halves of the vertices, then all triangles.
     const std::size_t half = mesh.positions.size() / 2;
     for (const std::size_t start : {std::size_t{0}, half}) {
       auto* part = response.mutable_part();
@@ -281,7 +281,7 @@ class FakeServer::Meshes : public v1::MeshService::Service {
          *part->mutable_triangles());
     writer->Write(response);
     if (request->crease_normals()) {
-      // Two wedges at the first vertex of the first triangle.
+      // The first vertex of the first triangle has two wedges.
       const std::array<std::uint32_t, 2> vertices = {mesh.triangles[0], mesh.triangles[0]};
       const std::array<float, 6> normals = {1, 0, 0, 0, 1, 0};
       auto* creases = response.mutable_creases();

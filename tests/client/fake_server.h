@@ -1,3 +1,4 @@
+// A server inside the test process that answers the whole contract with known values, for tests of the client.
 #pragma once
 
 #include <grpcpp/server.h>
@@ -17,18 +18,18 @@
 
 namespace isofield {
 
-// The contract, answered by one field: f(p) = x + 2y + 3z with gradient (1, 2, 3), whatever the scene. Its mesh is a
+// Answers every request by one field: f(p) = x + 2y + 3z with gradient (1, 2, 3), whatever the scene is. Its mesh is a
 // torus, but rays meet the plane f = iso. A scene reference by name must be in the catalog. Every operator is the sum
-// of its columns, every opening theta = alpha / 4.
+// of its columns, and every opening is theta = alpha / 4.
 class FakeServer {
  public:
-  // "unix:PATH" or "HOST:PORT".
+  // Listens at `address`, "unix:PATH" or "HOST:PORT".
   explicit FakeServer(const std::string& address);
   ~FakeServer();
 
-  // How requests shall fail, and what was seen of them.
-  std::atomic<int> unavailable_for = 0;  // so many reads are answered by UNAVAILABLE
-  std::atomic<int> busy_for = 0;         // so many evaluations of one message are refused, to be sent again at once
+  // These members say how requests fail, and what the server has seen of them.
+  std::atomic<int> unavailable_for = 0;  // this many reads are answered by UNAVAILABLE
+  std::atomic<int> busy_for = 0;         // this many evaluations of one message are refused, to be sent again at once
   std::atomic<int> reads = 0;
   std::atomic<int> writes = 0;
   std::atomic<int> stream_messages = 0;
@@ -36,16 +37,16 @@ class FakeServer {
   std::atomic<int> fail_stream_after = -1;     // chunks
   std::atomic<std::size_t> answer_rows = ~std::size_t{0};  // the most rows in a message of a streamed evaluation
   std::atomic<std::size_t> page_entries = ~std::size_t{0};  // the most entries in a page of a list
-  std::atomic<std::uint64_t> max_answer_bytes = 0;          // as the last request stated it
+  std::atomic<std::uint64_t> max_answer_bytes = 0;          // as the last request states it
   std::atomic<bool> short_answer = false;
   std::atomic<bool> garbled_scene = false;   // the parts of a scene do not join to one
   std::atomic<bool> misplaced_rows = false;  // the parts of a grid say that they are first rows
   std::atomic<bool> endless_mesh = false;
   std::atomic<bool> mesh_cancelled = false;
   std::atomic<bool> wrong_summary = false;
-  std::atomic<bool> too_thin = false;  // the mesh is said to have cells that are too coarse
-  std::string mesh_unit;               // of the summary
-  // Of the creases that a mesh has where they are asked for: a corner, and its wedge.
+  std::atomic<bool> too_thin = false;  // the summary says that the mesh's cells are too coarse
+  std::string mesh_unit;               // the unit in the summary
+  // The corner and its wedge that a mesh with creases has, if the request asks for creases.
   std::vector<std::uint32_t> crease_corner = {0, 1};
 
  private:

@@ -12,8 +12,8 @@
 namespace isofield {
 namespace {
 
-// A watch on the file "scene" in a directory of its own, and functions that change the file. wait() returns at once
-// where a change comes before it, so no thread is needed. A test that fails hangs until its time limit.
+// Owns a watch on the file "scene" in a directory of its own, and changes the file. wait() returns at once if a change
+// comes before it, so no thread is needed. A test that fails hangs until its time limit.
 class FileWatchTest : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return directory_.path(name); }

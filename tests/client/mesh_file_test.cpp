@@ -47,7 +47,7 @@ TEST(MeshFile, FormatsByExtension) {
   EXPECT_FALSE(mesh_format("glb"));
 }
 
-// The format's unit is the metre: the node is scaled, the arrays keep the mesh's own numbers.
+// The format's unit is the metre, so the node is scaled, and the arrays keep the mesh's own numbers.
 TEST(MeshFile, AGlbIsScaledByItsNode) {
   const Mesh mesh = torus_mesh(20, 10, 30000.0f, 100.0f);
   const auto model_of = [&](double scale) {
@@ -79,7 +79,7 @@ TEST(MeshFile, OtherFormatsAreScaledByTheirCoordinatesAndNameTheUnit) {
   EXPECT_TRUE(absl::StartsWith(written(mesh, MeshFormat::kObj, {1, "um"}), "# isofield\n# unit um\no "));
   EXPECT_TRUE(absl::StrContains(written(mesh, MeshFormat::kPly, {1, "um"}), "\ncomment unit um\n"));
   EXPECT_TRUE(absl::StartsWith(written(mesh, MeshFormat::kStl, {1, "um"}), std::string("isofield UNITS=um\0", 18)));
-  // Whatever a scene states stays within its line, and within STL's header.
+  // The unit that a scene states stays within its line, and within STL's header.
   const std::string long_unit(200, 'x');
   EXPECT_EQ(written(mesh, MeshFormat::kStl, {1, long_unit}).size(), written(mesh, MeshFormat::kStl).size());
   EXPECT_TRUE(
@@ -108,7 +108,7 @@ TEST(MeshFile, GlbReadsBack) {
   EXPECT_EQ(model.scenes.at(0).nodes.size(), 1u);
 }
 
-// The axis, 0 to 2, that a triangle of a cube is at right angles to.
+// Returns the axis, 0 to 2, to which a triangle of a cube is at right angles.
 std::size_t axis_of(const Mesh& mesh, std::size_t triangle) {
   const auto at = [&](std::size_t c, std::size_t axis) {
     return mesh.positions[3 * std::size_t{mesh.triangles[3 * triangle + c]} + axis];
@@ -118,7 +118,8 @@ std::size_t axis_of(const Mesh& mesh, std::size_t triangle) {
   return axis;
 }
 
-// Vertices on edges have the normal of one of their sides, as a field's gradient has, and a wedge for each side.
+// Makes a cube. A vertex on an edge has the normal of one of its sides, as a field's gradient has, and a wedge for each
+// side.
 Mesh cube_mesh(int n) {
   const test_support::CubeGrid grid = test_support::cube_grid(n);
   Mesh mesh;
@@ -150,7 +151,7 @@ Mesh cube_mesh(int n) {
   return mesh;
 }
 
-// That the normal of each corner of a triangle is the triangle's, within a degree.
+// Checks that the normal of each corner of a triangle is the triangle's, within a degree.
 void expect_flat_sides(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
                        const std::vector<float>& normals, const std::vector<std::uint32_t>& corners) {
   for (std::size_t t = 0; t < triangles.size(); t += 3) {
@@ -177,7 +178,7 @@ TEST(MeshFile, GlbHasANormalForEachSideOfACrease) {
     const auto positions = array_of<float>(model, primitive.attributes.at("POSITION"));
     const auto normals = array_of<float>(model, primitive.attributes.at("NORMAL"));
     const auto triangles = array_of<std::uint32_t>(model, primitive.indices);
-    // 6 sides with vertices of their own.
+    // Each of the 6 sides has vertices of its own.
     EXPECT_EQ(positions.size(), 3u * 6 * (n + 1) * (n + 1));
     EXPECT_EQ(normals.size(), positions.size());
     expect_flat_sides(positions, triangles, normals, triangles);
@@ -279,7 +280,7 @@ TEST(MeshFile, WritingIsFast) {
     EXPECT_TRUE(write_mesh(mesh, format, "torus", **file).ok());
     EXPECT_TRUE((*file)->commit().ok());
     const double took = processor_seconds() - start;
-    // Several times what it takes here, so that only a lost order of magnitude fails.
+    // The limits are several times what writing takes, so that only a lost order of magnitude fails.
     EXPECT_LT(took, seconds) << name;
     RecordProperty(name, absl::StrCat(took));
     std::printf("%s: %.3f s for %zu triangles\n", name, took, mesh.triangle_count());

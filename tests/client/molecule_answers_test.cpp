@@ -1,4 +1,4 @@
-// The files of tests/data/molecules with the answers that stand beside them.
+// Compares the files of tests/data/molecules with the answers beside them.
 #include <absl/strings/match.h>
 #include <absl/strings/str_join.h>
 #include <absl/strings/str_split.h>
@@ -139,7 +139,7 @@ TEST(MoleculeAnswers, OperatorExpressions) {
 TEST(Gzip, BoundsAndDamage) {
   const TemporaryDirectory directory;
   const auto packed = [] {
-    // The bytes are written as they are, so that the client unpacks them.
+    // This reads the packed bytes as they are, so that gunzip() unpacks them.
     FILE* const file = std::fopen((kFolder + "packed.pdb.gz").c_str(), "rb");
     std::string data(4096, '\0');
     data.resize(std::fread(data.data(), 1, data.size(), file));
@@ -155,7 +155,7 @@ TEST(Gzip, BoundsAndDamage) {
   EXPECT_EQ(*gunzip(packed + std::string(512, '\0')), *whole);
   EXPECT_FALSE(gunzip(packed + "more").ok());
   EXPECT_FALSE(gunzip(packed.substr(0, packed.size() - 1)).ok());
-  // A packed file is known by its content, whatever its name is, and so is a packed scene.
+  // A packed file is known by its content, whatever its name is.
   EXPECT_EQ(*read_file(write_file(directory.path("plain"), packed)), *whole);
 }
 

@@ -53,7 +53,7 @@ TEST(RegionOutline, LiesWhereTheRegionEnds) {
 }
 
 TEST(RegionOutline, ReachesAWedgeAndASideOfTheFrame) {
-  // Barthe's lines: straight down to the corner, and no hooks there.
+  // Barthe's lines go straight down to the corner and have no hooks there.
   const auto wedge = region_outline(0, 1, 64, where([](const Point& p) { return p.y > 0.3 * p.x && p.x > 0.3 * p.y; }));
   for (const Segment& s : *wedge) {
     for (const Point& p : {s.a, s.b}) {
@@ -61,7 +61,7 @@ TEST(RegionOutline, ReachesAWedgeAndASideOfTheFrame) {
       EXPECT_LT(off, 1e-3) << p.x << " " << p.y;
     }
   }
-  // All but the axes themselves.
+  // The region is all of the square but the axes themselves.
   const auto open = region_outline(0, 1, 64, where([](const Point& p) { return p.x > 0 && p.y > 0; }));
   EXPECT_GE(open->size(), 2u * 63);
   for (const Segment& s : *open) EXPECT_LT(std::min(s.a.x, s.a.y), 1e-4);
@@ -96,7 +96,7 @@ TEST(OperatorPlot, ShowsLevelsAtItsStepWhereTheyAreFarApart) {
 }
 
 TEST(OperatorPlot, SkipsLevelsThatWouldRunTogether) {
-  // Steepens like the super-elliptic blend with a great exponent: 1e19 steps.
+  // The function steepens like the super-elliptic blend with a great exponent: 1e19 steps of levels.
   OperatorPlot plot{.low = -1, .high = 2, .surface = 0, .inside_above = false};
   const auto levels = levels_of(plot, [](double x) { return 1 - std::pow(std::max(0.0, 1 - x), 64); });
   ASSERT_GT(levels.size(), 10u);
@@ -130,7 +130,7 @@ struct Pixels {
     return reinterpret_cast<const Color*>(row)[x] & 0xffffff;
   }
   int darkness(int x, int y) const { return 255 - static_cast<int>(at(x, y) & 0xff); }
-  // Of all pixels of some columns, in whole pixels.
+  // Returns the ink of all pixels of some columns, in whole pixels.
   double ink(int first, int last) const {
     double sum = 0;
     for (int y = 0; y < cairo_image_surface_get_height(surface); ++y) {
@@ -144,13 +144,13 @@ struct Pixels {
 
 TEST(Drawing, StrokesCoverTheirWidth) {
   Drawing drawing(40, 20);
-  // Twice the same segment is one stroke.
+  // The same segment twice makes one stroke.
   drawing.stroke({{{5, 10}, {35, 10}}, {{5, 10}, {35, 10}}}, 3, 0);
   const Pixels pixels(drawing);
   EXPECT_NEAR(pixels.ink(20, 21), 3, 0.05);
   EXPECT_EQ(pixels.darkness(20, 10), 255);
   EXPECT_EQ(pixels.darkness(38, 10), 0);
-  // Beyond the drawing nothing is written.
+  // Nothing is written beyond the drawing.
   drawing.stroke({{{-50, -50}, {90, 90}}}, 5, 0);
   EXPECT_EQ(drawing.status(), CAIRO_STATUS_SUCCESS);
 }
@@ -179,7 +179,7 @@ TEST(Drawing, TakesTextThatIsNotUtf8) {
 
 TEST(Drawing, ShadesWithTheNearestSample) {
   Drawing drawing(60, 60);
-  // Two rows of three samples; the outer ones lie on the sides, so that their cells are cut in half.
+  // The picture has two rows of three samples. The outer samples lie on the sides, so their cells are cut in half.
   drawing.shade({0x000001, 0x000002, 0x000003, 0x000004, 0x000005, 0x000006}, 3, {10, 10}, {50, 30});
   const Pixels pixels(drawing);
   EXPECT_EQ(pixels.at(9, 12), 0xffffffu);
@@ -191,7 +191,7 @@ TEST(Drawing, ShadesWithTheNearestSample) {
   EXPECT_EQ(pixels.at(49, 20), 6u);
   EXPECT_EQ(pixels.at(10, 29), 4u);
   EXPECT_EQ(pixels.at(10, 30), 0xffffffu);
-  // A single column fills the rectangle.
+  // A single column of samples fills the rectangle.
   drawing.shade({0x000007, 0x000008}, 1, {0, 40}, {60, 60});
   EXPECT_EQ(Pixels(drawing).at(0, 40), 7u);
   EXPECT_EQ(Pixels(drawing).at(59, 59), 8u);
@@ -219,7 +219,7 @@ TEST(PlotFile, WritesEachFormat) {
     const std::string bytes = written(small_drawing(150), directory.path(absl::StrCat("a.", ending)));
     EXPECT_EQ(bytes.substr(0, std::strlen(start)), start) << ending;
     EXPECT_FALSE(absl::StrContains(bytes, "CreationDate")) << "which would differ from second to second";
-    // The ids of an SVG go on counting in the same process.
+    // The ids of an SVG go on counting in the same process, so two SVG files differ.
     if (absl::string_view(ending) == "svg") continue;
     EXPECT_EQ(written(small_drawing(150), directory.path(absl::StrCat("b.", ending))), bytes) << ending;
   }
@@ -229,7 +229,7 @@ TEST(PlotFile, WritesEachFormat) {
 TEST(PlotFile, KeepsThePlotsSize) {
   const TemporaryDirectory directory;
   EXPECT_TRUE(absl::StrContains(written(small_drawing(150), directory.path("a.svg")), "width=\"150px\""));
-  // Points, of which 72 are an inch.
+  // The size is in points, of which an inch has 72.
   EXPECT_TRUE(absl::StrContains(written(small_drawing(150), directory.path("a.pdf")), "0 0 112.5 30"));
 }
 

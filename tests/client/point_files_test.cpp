@@ -19,7 +19,7 @@ struct Answer {
   std::string file;
   std::vector<float> points;
   std::string note;
-  // A part of the error; empty where the file is read.
+  // A part of the error; empty if the file is read.
   std::string message;
 };
 

@@ -7,7 +7,7 @@
 namespace isofield {
 namespace {
 
-constexpr double kSurface = 0.4542020189;  // of R
+constexpr double kSurface = 0.4542020189;  // part of R
 
 absl::StatusOr<Imported> import(const std::string& text, const ImportOptions& options = {}) {
   return import_text(text, ImportFormat::kPoints, options, "p.txt");

@@ -18,7 +18,7 @@ struct Box {
   int x0 = 1 << 30, y0 = 1 << 30, x1 = -1, y1 = -1;
 };
 
-// Where anything is seen.
+// Returns the box of the pixels that show anything.
 Box covered(const Visibility& seen) {
   Box box;
   for (int y = 0; y < seen.height; ++y) {
@@ -41,7 +41,7 @@ TEST(Camera, HoldsTheModelWithAMarginInEveryView) {
       EXPECT_GT(box.y0, 0);
       EXPECT_LT(box.x1, width - 1);
       EXPECT_LT(box.y1, height - 1);
-      // One of the two directions fills the picture, up to the margin of 8 %.
+      // The model fills one of the two directions of the picture, up to the margin of 8 %.
       EXPECT_GT(std::max(static_cast<double>(box.x1 - box.x0) / width, static_cast<double>(box.y1 - box.y0) / height),
                 0.85);
     }
@@ -55,7 +55,7 @@ TEST(Camera, StandsWhereTheViewSays) {
   view.distance = 5;
   view.field_of_view = 90;
   const Camera camera = fit_camera(mesh.positions, view, 2);
-  // From the right side: x points at the viewer, z to the left.
+  // The camera looks from the right side: x points at the viewer, and z to the left.
   const glm::vec3 eye = camera.to_camera({6, 2, 3}), beside = camera.to_camera({1, 2, 2});
   EXPECT_NEAR(std::sqrt(dot(eye, eye)), 0, 1e-5);
   EXPECT_NEAR(beside.x, 1, 1e-5);
@@ -139,7 +139,8 @@ TEST(Rasterizer, ShowsTheNearestFrontFace) {
   const Mesh mesh = torus_mesh(200, 100, 1.0f, 0.5f);
   const Camera camera = fit_camera(mesh.positions, View::from(0, 90), 1);
   const Visibility seen = rasterize(mesh, camera, 301, 301);
-  // From above: a ring with a hole, its crest nearest and its normal there towards the viewer.
+  // The camera looks from above at a ring with a hole. The ring's crest is nearest, and its normal there points towards
+  // the viewer.
   EXPECT_EQ(seen.inverse_depth[150 * 301 + 150], 0);
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < seen.inverse_depth.size(); ++i) {
@@ -192,7 +193,7 @@ TEST(Render, OddInput) {
   EXPECT_EQ(render(mesh, options).status().code(), absl::StatusCode::kInvalidArgument);
   mesh.normals.clear();
   EXPECT_EQ(render(mesh, {}).status().code(), absl::StatusCode::kInvalidArgument);
-  // All vertices in one place.
+  // All vertices lie in one place.
   mesh = torus_mesh(8, 8, 0.0f, 0.0f);
   EXPECT_TRUE(render(mesh, {}).ok());
 }

@@ -80,12 +80,12 @@ TEST(SwcImport, DropsWhatCannotBeUsedAndSaysSo) {
   const auto [scene, report] = import_swc_text(
       "1 0 0 0 0 1 -1\n"
       "garbage\n"
-      "2 0 nan 0 0 1 1\n"    // dropped; its child becomes a root
-      "3 0 1e300 0 0 1 1\n"  // beyond float32
+      "2 0 nan 0 0 1 1\n"    // the sample is dropped, and its child becomes a root
+      "3 0 1e300 0 0 1 1\n"  // the coordinate is beyond float32
       "4 0 5 0 0 1 2\n"
       "5 0 9 0 0 1 4\n"
-      "5 0 9 9 9 1 4\n"   // id used before
-      "6 0 9 5 0 1 77\n"  // no such parent
+      "5 0 9 9 9 1 4\n"   // the id was used before
+      "6 0 9 5 0 1 77\n"  // there is no such parent
       "7 0 1 2\n"
       "8 0 0 3 0 1 x\n");
   EXPECT_EQ(count_of(report, "expected \"id type x y z radius parent\""), 2u);
@@ -96,7 +96,7 @@ TEST(SwcImport, DropsWhatCannotBeUsedAndSaysSo) {
   EXPECT_EQ(count_of(report, "separate tree"), 4u);
   EXPECT_TRUE(report.damaged());
   EXPECT_TRUE(absl::StrContains(report.text(), "line 2: garbage")) << report.text();
-  // 1, 6 and 8 alone: spheres; 5 an edge from 4.
+  // The samples 1, 6 and 8 are alone and become spheres; 5 is an edge from 4.
   EXPECT_EQ(scene.nodes_size(), 4 + 1);
 }
 
@@ -166,7 +166,7 @@ TEST(SwcImport, CutsCyclesOnce) {
       import_swc_text("1 0 0 0 0 1 3\n2 0 9 0 0 1 1\n3 0 9 9 0 1 2\n4 0 9 18 0 1 3\n5 0 50 0 0 1 5\n6 0 60 0 0 1 5\n");
   EXPECT_EQ(count_of(report, "its own ancestor"), 1u);
   EXPECT_EQ(count_of(report, "is its own parent"), 1u);
-  // 1-2, 2-3, 3-4 and 5-6; the closing edge is gone.
+  // The edges 1-2, 2-3, 3-4 and 5-6 remain; the one that closes the cycle is gone.
   EXPECT_EQ(report.pieces, 4u);
 }
 
@@ -175,7 +175,7 @@ TEST(SwcImport, DropsEdgesWithoutLength) {
       import_swc_text("1 0 0 0 0 1 -1\n2 0 0 0 0 1 1\n3 0 9 0 0 1 2\n4 0 9 0 0 4 3\n5 0 50 0 0 1 -1\n6 0 50 0 0 2 5\n");
   EXPECT_EQ(count_of(report, "edge of length 0 dropped"), 2u);
   EXPECT_EQ(count_of(report, "made a sphere"), 1u);
-  // 2-3, the wide end 4, and the tree 5-6 as one sphere of its larger radius.
+  // The pieces are the edge 2-3, the wide end 4, and the tree 5-6 as one sphere of its larger radius.
   ASSERT_EQ(report.pieces, 3u);
   EXPECT_EQ(scene.nodes(1).sphere().radius(), 4);
   EXPECT_EQ(scene.nodes(2).sphere().radius(), 2);
@@ -213,7 +213,7 @@ TEST(SwcImport, NothingUsableIsAnError) {
 }
 
 TEST(SwcImport, LongChainsAndLongCyclesTakeLinearTime) {
-  // Children before parents, so that the order has to be made; and all of it one cycle.
+  // Children come before parents, so the order has to be made. In the second round all samples are one cycle.
   for (const bool cycle : {false, true}) {
     constexpr int kSamples = 200000;
     std::string text;
@@ -232,7 +232,7 @@ TEST(SwcImport, HemibrainNeuron) {
   const auto imported = import_file(path, {});
   ASSERT_TRUE(imported.ok()) << imported.status();
   EXPECT_EQ(imported->report.read, 4465u);
-  // 4,464 edges and the soma, less three edges within it.
+  // The pieces are 4,464 edges and the soma, less three edges within it.
   EXPECT_EQ(imported->report.pieces, 4462u);
   EXPECT_EQ(count_of(imported->report, "is the unit nm? --unit nm"), 1u);
   EXPECT_FALSE(imported->report.damaged());
@@ -245,7 +245,7 @@ TEST(SwcImport, NeuromNeuron) {
   ASSERT_TRUE(imported.ok()) << imported.status();
   EXPECT_EQ(imported->report.read, 847u);
   EXPECT_EQ(count_of(imported->report, "edge of length 0 dropped"), 4u);
-  // 846 edges less those; the soma is a stack of two.
+  // The pieces are 846 edges less those four; the soma is a stack of two.
   EXPECT_EQ(imported->report.pieces, 842u);
 }
 

@@ -1,3 +1,4 @@
+// Helpers of the client's tests: temporary files, shared test data, a mesh, and processor time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 
 namespace isofield {
 
-// An empty directory that goes away with the object.
+// An empty directory, which is removed with the object.
 class TemporaryDirectory {
  public:
   TemporaryDirectory();
@@ -24,17 +25,19 @@ class TemporaryDirectory {
   std::string path_;
 };
 
+// Writes a file and returns its path.
 std::string write_file(const std::string& path, std::string_view data);
 
-// A file of the shared test data, or "" where it is missing: then skip, with this macro.
+// Returns the path of a file of the shared test data, or "" if it is missing. The test must then be skipped with this
+// macro.
 std::string shared_data(const std::string& name);
 #define ISOFIELD_SKIP_WITHOUT(path) \
   if ((path).empty()) GTEST_SKIP() << "SKIPPED, NOT TESTED: shared test data is missing; set ISOFIELD_SHARED"
 
-// A closed torus around the y axis with outward normals; 2 * rings * sides triangles.
+// Makes a closed torus around the y axis with outward normals; it has 2 * rings * sides triangles.
 Mesh torus_mesh(int rings, int sides, float major_radius, float minor_radius);
 
-// Seconds of processor time since the process began: what a loaded machine does not stretch.
+// Returns seconds of processor time since the process began, which a loaded machine does not stretch.
 double processor_seconds();
 
 }  // namespace isofield

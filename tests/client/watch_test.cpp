@@ -28,7 +28,7 @@ class WatchTest : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  // A mark by which the next picture is told from this one.
+  // Sets a mark that tells the next picture from this one.
   void mark(const std::string& unit) { server_.mesh_unit = unit; }
   static std::string marked(const std::string& unit) { return "\"unit\":\"" + unit + "\""; }
   std::set<std::string> files() const {

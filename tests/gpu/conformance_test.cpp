@@ -1,5 +1,5 @@
-// Every composition operator by itself, on the device and in double precision: the canonical definition of
-// server/operators as reference/ uses it against the kernels' mirror of it.
+// Compares every composition operator by itself on the device and in double precision: the kernels mirror the canonical
+// definition in server/operators, which reference/ uses.
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_join.h>
 #include <gtest/gtest.h>
@@ -67,13 +67,13 @@ TEST(Conformance, EveryOperatorIsTheSameOnTheDevice) {
   }
 }
 
-// A power multiplies the relative error of its logarithm by the exponent, and that of its base: where a driver's log2
-// is off by 2^-21, as it may be, values were off by 3e-5.
+// A power multiplies the relative error of its logarithm by the exponent, and that of its base. A driver's log2 may be
+// off by 2^-21, with which values were off by 3e-5.
 TEST(Conformance, PowersKeepTheirDigitsAtTheGreatestExponents) {
   std::vector<Case> all;
   for (const double t : {1.0001, 7.3, 31.0, 64.0}) {
     all.push_back({"ricci " + std::to_string(t), operators::Ricci{t}});
-    // The ranges are as float32 has them.
+    // These ranges are exact in float32.
     all.push_back(
         {"superelliptic " + std::to_string(t), operators::Superelliptic{t, {{0.75, 2, 1}, {1.25, 2, 1}}, {}}});
     all.push_back({"btk " + std::to_string(t), operators::Btk{{{1, t, 1}, {0.7, t, 0.4}, {1.3, 2, 2}}, {}}, 3});
@@ -105,7 +105,7 @@ TEST(Conformance, PowersKeepTheirDigitsAtTheGreatestExponents) {
   }
 }
 
-// Operators that follow an angle: two fields in space whose gradients have the angle and the ratio of the row.
+// The operators follow an angle: the gradients of the two fields have the angle and the ratio of lengths of the row.
 TEST(Conformance, OperatorsThatFollowAnAngleAreTheSameOnTheDevice) {
   for (const Case& c : cases()) {
     if (!c.op.has_angular_ranges()) continue;
@@ -152,16 +152,16 @@ TEST(Conformance, PartialsByTheAngleAreDifferencesOfValues) {
       errors.push_back(std::abs((low[8] - low[0]) / (2 * kStep) - low[4 + 3]) / std::max(1.0f, std::abs(low[4 + 3])));
     }
     std::sort(errors.begin(), errors.end());
-    EXPECT_LE(errors[kRows * 95 / 100], 1e-2);  // the cosine's bend at a right angle, and the edge of the blend
+    EXPECT_LE(errors[kRows * 95 / 100], 1e-2);  // the cosine bends at a right angle, and the blend ends at its edge
   }
 }
 
-// Exact partials against central differences of exact values, and the device's against the same differences. Left out,
-// and counted: where differences with two steps or to both sides do not agree. The device's are not compared where
-// is_smooth() says that float32 cannot follow.
+// Compares exact partials with central differences of exact values, and the device's partials with the same
+// differences. Places where differences with two steps or to both sides do not agree are left out and counted. The
+// device's partials are not compared where is_smooth() says that float32 cannot follow.
 class PartialsByDifferences {
  public:
-  // f(column, x): the value with the argument of that column replaced.
+  // value(k, x) is the operator's value with argument k replaced by x.
   template <class Value>
   void compare(const std::vector<double>& arguments, const std::vector<double>& partials, const float* device,
                const Value& value) {
@@ -217,7 +217,7 @@ TEST(Conformance, PartialsAreDifferencesOfExactValues) {
       };
       const FieldState e = state(x);
       const double d[] = {e.field.d.x, e.field.d.y, e.field.d.z};
-      // Ranges of a hundredth, as aligned surfaces have, are within the step of a difference.
+      // Ranges of a hundredth, which aligned surfaces have, are within the step of a difference.
       const bool is_even = c.op.has_angular_ranges() || is_smooth(c.op, x, e);
       differences.compare(x, {d, d + partials}, is_even ? &device[i * (1 + partials) + 1] : nullptr,
                           [&](std::size_t k, double moved) {
@@ -272,7 +272,8 @@ TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
   }
 }
 
-// The rows lie where one piece of the curve ends and the next begins, before the first and beyond the last.
+// The rows lie at the control points, where one piece of the curve ends and the next begins, before the first and
+// beyond the last.
 TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
   const Operator op = operators::Functional{
       operators::SampledCurve({0.125, 0.25, 0.2500001, 0.5, 1}, {0.5, 0.4, 0.3999999, 0.2, 0.0625})};
@@ -289,13 +290,13 @@ TEST(Conformance, FunctionalBlendsAreTheReferencesAtTheirControlPoints) {
     EXPECT_NEAR(results[3 * i], e.field.v, 3e-7) << x1 << ", " << x2;
     if (std::abs(std::abs(x1 - x2) - 0.25f) < 1e-6f) continue;  // the slope turns within an ulp
     if (x1 != x2 && std::abs(x1 - x2) < 1e-37f)
-      continue;  // a driver may take denormals for 0, where either side will do
+      continue;  // a driver may take denormals for 0, where the partials of either side are right
     EXPECT_NEAR(results[3 * i + 1], e.field.d.x, 1e-5) << x1 << ", " << x2;
     EXPECT_NEAR(results[3 * i + 2], e.field.d.y, 1e-5) << x1 << ", " << x2;
   }
 }
 
-// Every operator of positive fields that has a form, as an intersection.
+// Returns every operator of positive fields that has a form, as an intersection.
 std::vector<Case> positive_intersections() {
   std::vector<Case> all;
   for (const Case& c : cases()) {
@@ -320,7 +321,7 @@ std::vector<Case> positive_intersections() {
   return all;
 }
 
-// The union of complements is the greatest of them where one is not positive.
+// If a complement is not positive, the union of complements is their greatest one.
 TEST(Conformance, IntersectionsOfPositiveFieldsAboveOneAreTheLeast) {
   const float fields[] = {0.3f, 0.7f, 1, 1.27f, 1.5f, 4, 1e6f};
   for (Case c : positive_intersections()) {
@@ -349,7 +350,7 @@ TEST(Conformance, IntersectionsOfPositiveFieldsAboveOneAreTheLeast) {
         EXPECT_EQ(i[1], f1 <= f2 ? 1 : 0);
         EXPECT_EQ(i[2], f1 <= f2 ? 0 : 1);
       }
-      // The first less the second is the intersection with 1 - f2, which is never above 1.
+      // The first field less the second is the intersection with 1 - f2, which is never above 1.
       if (f2 >= 1) {
         EXPECT_EQ(d[0], 0);
         EXPECT_EQ(d[1], 0);
@@ -371,7 +372,7 @@ TEST(Conformance, IntersectionsOfPositiveFieldsAboveOneAreTheLeast) {
   }
 }
 
-// Three sums that are above 1 where the spheres overlap, folded.
+// The scene folds three sums, which are above 1 where the spheres overlap.
 TEST(Conformance, FoldedIntersectionsOfSumsAreTheReferences) {
   std::string nodes;
   std::vector<std::string> sums;
@@ -428,7 +429,7 @@ void expect_golden(const std::string& file, std::size_t operands,
   const auto table = test_support::read_csv(test_support::shared_file("golden/" + file));
   ASSERT_TRUE(table.ok()) << table.status();
   double worst = 0;
-  // Rows of the same parameters go together.
+  // The device evaluates all rows with the same parameters together.
   std::map<std::vector<double>, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < table->rows.size(); ++i) {
     const std::vector<double>& row = table->rows[i];
@@ -448,7 +449,7 @@ void expect_golden(const std::string& file, std::size_t operands,
   EXPECT_LE(worst, 1e-5);
 }
 
-// The conics go from next to the straight cut to next to the union.
+// The conics go from nearly the straight cut to nearly the union.
 TEST(Conformance, ConicsOfAnyTightnessAreTheSameOnTheDevice) {
   test_support::Random random(19);
   for (const double below : {1e-9, 1e-4, 1.0, 11.0, 1e3, 1e5, 1e8, 1e11, 1e14}) {  // 1 - p / (r1 r2)
@@ -456,7 +457,7 @@ TEST(Conformance, ConicsOfAnyTightnessAreTheSameOnTheDevice) {
     std::vector<float> rows;
     for (int i = 0; i < 3000; ++i) {
       const double x1 = random.number(-1.5, 1.5), x2 = random.number(-1.5, 1.5);
-      // A third close to where the fields are equal, at which tight conics turn.
+      // A third of the rows lie close to where the fields are equal, because tight conics turn there.
       const double near = x1 + std::pow(10, random.number(-7, 0)) * (random.chance(0.5) ? 1 : -1);
       rows.insert(rows.end(), {static_cast<float>(x1), static_cast<float>(i % 3 == 0 ? near : x2)});
     }
@@ -485,7 +486,7 @@ TEST(Conformance, ReproducesGoldenBt2) {
 
 TEST(Conformance, ReproducesGoldenBtk) {
   expect_golden("hsu_btk.csv", 3, [](const std::vector<double>&) {
-    return operators::Btk{{{1, 2, 1}, {0.7, 3, 0.5}, {1.3, 2.5, 2}}, {}};  // what the file was made with
+    return operators::Btk{{{1, 2, 1}, {0.7, 3, 0.5}, {1.3, 2.5, 2}}, {}};  // the file was made with these parameters
   });
 }
 

@@ -1,4 +1,4 @@
-// A scene on the device, asked for its field at points and for its mesh.
+// Evaluates a scene on the GPU for tests: its field at points, and its mesh.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,15 @@
 
 namespace isofield::gpu_test {
 
+// Owns the resident form of one scene. A refused scene ends the process.
 class DeviceField {
  public:
   explicit DeviceField(const v1::Scene& scene) : scene_(resident(scene)) {}
 
-  // At the points rounded to float32. A failure of the evaluation fails the test.
+  // Evaluate the field at the points rounded to float32. If the evaluation fails, the test fails.
   std::vector<double> values(const std::vector<blobtree::dvec3>& points) const;
   std::vector<reference::Sample> samples(const std::vector<blobtree::dvec3>& points) const;
-  // Empty, and the test fails, where it cannot be made.
+  // Makes a mesh. If it cannot be made, the test fails and the mesh is empty.
   engine::Mesh mesh(double cell_size) const;
 
  private:

@@ -1,4 +1,4 @@
-// The choice among devices, on made-up ones.
+// Tests the choice among devices, on made-up devices.
 #include "gpu/device_selection.h"
 
 #include <gtest/gtest.h>

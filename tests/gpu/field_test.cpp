@@ -1,4 +1,4 @@
-// Fields of random scenes on the device, against the reference.
+// Compares fields of random scenes on the device with the reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vecto
 TEST(FieldOnDevice, AgreesWithTheReferenceOnRandomScenes) {
   double worst_value = 0, worst_gradient = 0;
   int smooth = 0, points = 0;
-  // Every scene has kernels of its own to compile, which is what takes the time.
+  // Every scene has kernels of its own, and compiling them takes most of the time.
   const std::uint64_t seeds = scene_count(6);
   for (const int nodes : {1, 2, 3, 5, 10, 20, 40, 80, 120, 200}) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
@@ -62,7 +62,8 @@ TEST(FieldOnDevice, AgreesWithTheReferenceOnRandomScenes) {
         ASSERT_NEAR(both[4 * i], s.value, 2e-5) << nodes << " nodes, seed " << seed << ", point " << i;
         const dvec3 g{both[4 * i + 1], both[4 * i + 2], both[4 * i + 3]};
         ASSERT_TRUE(std::isfinite(g.x) && std::isfinite(g.y) && std::isfinite(g.z));
-        // Smooth: moving by more than float32 moves coordinates does not change the gradient by half the tolerance.
+        // A point is smooth if a move by more than float32's rounding changes the gradient by less than half of the
+        // tolerance.
         const double scale = std::max(length(s.gradient), 0.05);
         if (test_support::gradient_variation(exact, p, 2e-6) > 5e-4 * scale) continue;
         ++smooth;
@@ -79,7 +80,7 @@ TEST(FieldOnDevice, AgreesWithTheReferenceOnRandomScenes) {
   EXPECT_GT(smooth, points * 9 / 10);
 }
 
-// One kernel with every operand, blended, for drivers that compile slowly.
+// One kernel blends six kinds of primitives, for drivers that compile slowly.
 TEST(FieldOnDevice, AgreesWithTheReferenceOnEveryPrimitive) {
   const v1::Scene message = test_support::scene_of_nodes(R"([
     {"name": "ball", "sphere": {"center": [0.5, 0, 0], "radius": 0.5, "range": 0.4}},
@@ -133,7 +134,7 @@ TEST(FieldOnDevice, GivesTheSameBitsWhateverTheBatch) {
 
 TEST(FieldOnDevice, GivesTheSameBitsOnALatticeAsAtItsPoints) {
   const engine::SceneLease scene = resident(test_support::random_scene(8, {.nodes = 60}));
-  // Exact in float32, whether a driver fuses origin + spacing * i or not.
+  // The lattice is exact in float32, whether or not a driver fuses origin + spacing * i.
   const blobtree::Lattice lattice{{-2.125, -1.875, -2.25}, {0.15625, 0.140625, 0.1875}, {27, 30, 22}};
   std::vector<float> xyz;
   for (std::uint32_t k = 0; k < 22; ++k) {
@@ -169,7 +170,7 @@ TEST(FieldOnDevice, IsFiniteEverywhere) {
 }
 
 TEST(FieldOnDevice, IsFiniteForDegenerateBlends) {
-  // Coincident primitives, opposed gradients, centres, every opening at once.
+  // The scenes have coincident primitives, opposed gradients, points at centres, and every opening.
   std::string nodes = R"([{"name": "a", "sphere": {"radius": 0.5, "range": 0.5}},
     {"name": "b", "sphere": {"radius": 0.5, "range": 0.5}},
     {"name": "c", "sphere": {"center": [0.5, 0, 0], "radius": 0.2, "range": 2}},
@@ -208,7 +209,7 @@ TEST(FieldOnDevice, BlendsThroughVolumesAsTheReferenceDoes) {
     const blobtree::dvec3 p{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
     const reference::Sample s = exact.evaluate(p);
     ASSERT_NEAR(results[4 * i], s.value, 2e-5) << i;
-    // A gradient that is interpolated breaks at the faces of cells.
+    // An interpolated gradient breaks at the faces of cells.
     if (test_support::gradient_variation(exact, p, 2e-6) > 5e-4) continue;
     ++compared;
     const blobtree::dvec3 g{results[4 * i + 1], results[4 * i + 2], results[4 * i + 3]};
@@ -217,7 +218,7 @@ TEST(FieldOnDevice, BlendsThroughVolumesAsTheReferenceDoes) {
   EXPECT_GT(compared, 200);
 }
 
-// [G] Figs. 18 and 19: an opening is animated, nothing else is made anew.
+// [G] Figs. 18 and 19 animate an opening. Such an edit must reuse everything else.
 TEST(FieldOnDevice, EditedOpeningsShareTheLeaves) {
   v1::Scene scene = test_support::scene_of_nodes(R"([
     {"name": "a", "sphere": {"radius": 0.5, "range": 0.5}},
@@ -235,12 +236,12 @@ TEST(FieldOnDevice, EditedOpeningsShareTheLeaves) {
   const auto after = before->with_operations(device(), **std::move(tape));
   ASSERT_TRUE(after.ok()) << after.status();
   EXPECT_TRUE((*after)->shares_leaves_with(*before));
-  // The same bits as the edited scene made from nothing.
+  // The edited scene gives the same bits as one made from nothing.
   const std::vector<float> xyz = random_points(31, 2000, 1.5);
   const std::vector<float> edited = evaluate(**after, xyz, ResultLayout::kValueAndGradient);
   EXPECT_EQ(edited, evaluate(*resident(scene), xyz, ResultLayout::kValueAndGradient));
   EXPECT_NE(edited, evaluate(*before, xyz, ResultLayout::kValueAndGradient));
-  // What is more than a profile is compiled; what is refused is refused.
+  // edit_blends() leaves edits of more than a profile to the compiler, and it refuses wrong values.
   const auto moved = blobtree::apply_edits({{"a", "radius", {0.4}}}, scene);
   EXPECT_FALSE(blobtree::edit_blends((*after)->tape(), scene, *moved, {})->has_value());
   const auto wrong = blobtree::apply_edits({{"inner", "opening.theta1", {46}}}, scene);
@@ -259,7 +260,7 @@ TEST(FieldOnDevice, IsZeroWhereNothingIs) {
     *scene.add_nodes() = sum;
     const engine::SceneLease lease = resident(scene);
     engine::FieldEvaluator fresh(device(), kernels(), workers());
-    for (const float near : {5.0f, 0.0f}) {  // all points far away, and all but some of the first ones
+    for (const float near : {5.0f, 0.0f}) {  // all points are far away, or all but some of the first ones
       std::vector<float> xyz = random_points(1, 300'000, 1);
       for (std::size_t i = near == 0 ? 300 : 0; i < xyz.size(); ++i) xyz[i] += 5;
       std::vector<float> out(300'000, 7);
@@ -272,9 +273,9 @@ TEST(FieldOnDevice, IsZeroWhereNothingIs) {
   }
 }
 
-// A scene that is asked often has its tapes on the device.
+// The device keeps the tapes of a scene that is evaluated often.
 TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
-  v1::Scene overlapping;  // of which a piece is more than a submission
+  v1::Scene overlapping;  // one piece of it is more than a submission
   v1::Node sum;
   for (int i = 0; i < 40; ++i) {
     overlapping.add_nodes()->mutable_sphere()->set_radius(1 + i * 1e-2);
@@ -288,7 +289,7 @@ TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
                    : test_support::random_scene(seed, {.nodes = 80, .cuts = seed == 21, .all_operators = false}));
     ASSERT_GT(lease->tape().code.size(), 12u);
     const std::vector<float> xyz = random_points(seed, 150'000, 2);
-    // An evaluator that has seen nothing, and so sorts the first batches by themselves.
+    // The evaluator has seen no batch yet, so it sorts the first batches by themselves.
     engine::FieldEvaluator fresh(device(), kernels(), workers());
     std::vector<float> first(4 * 150'000), out(first.size());
     for (int batch = 0; batch < 6; ++batch) {
@@ -298,7 +299,7 @@ TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
       if (batch == 0) continue;
       ASSERT_EQ(std::memcmp(first.data(), out.data(), sizeof(float) * out.size()), 0) << "batch " << batch;
     }
-    // Smaller ones find it, too, or had better not.
+    // Smaller batches give the same bits, whether or not they use the index.
     for (const std::size_t count : {7u, 3000u, 40'000u}) {
       std::vector<float> some(4 * count);
       ASSERT_TRUE(fresh.evaluate(*lease, std::span(xyz).first(3 * count), ResultLayout::kValueAndGradient, some).ok());
@@ -307,7 +308,7 @@ TEST(FieldOnDevice, GivesTheSameBitsThroughAnIndex) {
   }
 }
 
-// As the queue runs joined requests: whoever asked for a turn while it holds one would wait for ever.
+// The queue runs joined requests in this way: a thread that asks for a turn while it holds one waits for ever.
 TEST(FieldOnDevice, AsksForNoTurnBesideTheOneItWasGiven) {
   for (const int nodes : {1, 3, 80}) {
     const engine::SceneLease lease = resident(test_support::random_scene(3, {.nodes = nodes, .all_operators = false}));
@@ -315,14 +316,14 @@ TEST(FieldOnDevice, AsksForNoTurnBesideTheOneItWasGiven) {
     const std::size_t count = device().profile().joined_points;
     const std::vector<float> xyz = random_points(1, count, 2);
     std::vector<float> out(4 * count);
-    for (int batch = 0; batch < 40; ++batch) {  // until an index would be worth its while
+    for (int batch = 0; batch < 40; ++batch) {  // until an index would be worth its cost
       gpu::Turns::Turn turn = device().turns().take({});
       ASSERT_TRUE(fresh.evaluate(*lease, xyz, ResultLayout::kValueAndGradient, out, {}, {{}, std::move(turn)}).ok());
     }
   }
 }
 
-// Primitives that all overlap leave nothing to cull: the work comes in pieces, between which others run.
+// All primitives overlap, so nothing is culled, and the work comes in pieces between which others can run.
 TEST(FieldOnDevice, ALargeBatchIsCutAndCanBeCancelled) {
   v1::Scene scene;
   v1::Node sum;
@@ -340,7 +341,7 @@ TEST(FieldOnDevice, ALargeBatchIsCutAndCanBeCancelled) {
   const absl::Status all = fields().evaluate(*lease, xyz, ResultLayout::kValue, whole, [&] { return ++asked < 0; });
   ASSERT_TRUE(all.ok()) << all;
   EXPECT_GE(asked, 4);
-  // The same bits as in small batches.
+  // Small batches give the same bits.
   for (const std::size_t first : {0u, 20'000u, 39'990u}) {
     const std::vector<float> some(xyz.begin() + 3 * first, xyz.begin() + 3 * (first + 10));
     const std::vector<float> part = evaluate(*lease, some, ResultLayout::kValue);
@@ -353,7 +354,7 @@ TEST(FieldOnDevice, ALargeBatchIsCutAndCanBeCancelled) {
 }
 
 TEST(FieldOnDevice, TakesDeepTrees) {
-  // 1,001 spheres nested 1,000 deep, to the left and to the right.
+  // The tree holds 1,001 spheres, nested 1,000 deep to the left or to the right.
   for (const bool left : {true, false}) {
     v1::Scene scene;
     test_support::Random random(4);

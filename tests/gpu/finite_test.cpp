@@ -1,5 +1,5 @@
-// Values and gradients are finite whatever the numbers: of operators by themselves at the ends of float32, and of
-// scenes at the ends of what their parameters and points may be.
+// Tests that values and gradients are finite: those of single operators at the ends of float32, and those of scenes at
+// the ends of what parameters and points may be.
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_join.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ using test_support::Random;
 
 constexpr float kMost = std::numeric_limits<float>::max();
 
-// With the gradient blend's own representations.
+// Returns the cases, with the gradient blend's own representations and some extreme parameters.
 std::vector<Case> all_cases() {
   std::vector<Case> all = cases();
   using namespace operators;
@@ -97,7 +97,7 @@ TEST(Finite, OperatorsAreAtTheEndsOfFloat32) {
   test_support::figure("rows", static_cast<double>(rows_in_all));
 }
 
-// Lengths, coordinates and other parameters from the ends of what is accepted and from between.
+// Draws lengths, coordinates and other parameters from the ends of what is accepted and from between.
 class ExtremeScene {
  public:
   explicit ExtremeScene(std::uint64_t seed) : random_(seed) {}
@@ -140,7 +140,7 @@ class ExtremeScene {
     }
   }
 
-  // A map of `name` called name + "t", within the condition that is accepted.
+  // Returns a transform of `name`, called name + "t". Its condition is within the accepted limit.
   std::string transform(const std::string& name) {
     constexpr double kScales[] = {1e-9, 1e-5, 1, 1, 3, 1e5, 1e9};
     const double scale = of(kScales);
@@ -149,7 +149,7 @@ class ExtremeScene {
                         std::min(scale * of(kRatios), 1e9), ", ", scale, R"(], "rotation": [1, 2, -3, 40]}})");
   }
 
-  // The parameters of an operator at the ends of their ranges; its opcodes stay.
+  // Moves the operator's parameters to the ends of their ranges, but keeps its opcodes.
   void make_extreme(Operator& op) {
     const bool has_weights = op.kind() != Kind::kSuperelliptic;
     for (operators::Term& t : terms_of(op)) {
@@ -196,7 +196,7 @@ class ExtremeScene {
   Random random_;
 };
 
-// The shapes of a scene's three leaves, and whether maps stand before them.
+// The shapes of a scene's three leaves, and whether a transform stands above each of them.
 struct Shapes {
   int leaves[3];
   bool has_maps;
@@ -213,8 +213,8 @@ std::string gradient_node(const Operator& op, const std::string& children, Extre
                       R"(, "form": ")", form, R"(", "volume": )", gradient.volume, "}}");
 }
 
-// A scene of the operator over three leaves (two where it takes no more), converted where it is signed and folded with
-// itself, so that what one yields meets another.
+// Returns a scene of the operator over three leaves. An operator of two operands is folded with itself, so that its
+// result meets another operand. Differences of signed fields are converted to positive ones.
 std::string scene_text(Case c, const Shapes& shapes, ExtremeScene& extreme) {
   const bool is_signed = c.op.law() == Law::kSigned;
   extreme.make_extreme(c.op);
@@ -239,14 +239,14 @@ std::string scene_text(Case c, const Shapes& shapes, ExtremeScene& extreme) {
     nodes.push_back(node({names[0], names[1]}, "two"));
     nodes.push_back(node({"two", names[2]}, "all"));
   }
-  // A signed field as it is, or what a positive one is made of it.
+  // Some scenes yield a signed field, others the positive one made of it.
   if (is_signed && c.op.form == Form::kDifference) {
     nodes.push_back(absl::StrCat(R"({"soften": {"child": "all", "range": )", extreme.length(), "}}"));
   }
   return absl::StrCat("[", absl::StrJoin(nodes, ",\n"), "]");
 }
 
-// Points from float32's ends and from around the leaves.
+// Returns points at float32's ends and points around the leaves.
 std::vector<float> extreme_points(const v1::Scene& scene, int count, Random& random) {
   constexpr float kEnds[] = {0, -0.0f, 1e-45f, 1.2e-38f, -1e-30f, 1e-20f, -1e-9f, 1e-3f,  0.3f, -1,
                              1, 50,    -1e4f,  1e9f,     -1e9f,   1e10f,  1e15f,  -3e38f, kMost};
@@ -287,13 +287,13 @@ TEST(Finite, ScenesAreAtTheEndsOfTheirParametersAndPoints) {
   std::size_t pairs = 0, sets = 0, refused = 0;
   std::vector<Case> all;
   for (Case& c : all_cases()) {
-    // One of each kind, form and whether it follows an angle.
+    // One case of each kind, form and whether it follows an angle is enough.
     const auto is_alike = [&](const Case& other) {
       return other.op.kind() == c.op.kind() && other.op.form == c.op.form &&
              other.op.has_angular_ranges() == c.op.has_angular_ranges() &&
              is_same_blend(other.op.as<operators::Gradient>(), c.op.as<operators::Gradient>());
     };
-    // An intersection of signed fields differs from the union in signs alone.
+    // An intersection of signed fields differs from the union only in signs.
     const bool is_turned = c.op.form == Form::kIntersection && c.op.law() == Law::kSigned;
     if (!is_turned && std::none_of(all.begin(), all.end(), is_alike)) all.push_back(std::move(c));
   }

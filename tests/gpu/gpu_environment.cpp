@@ -18,7 +18,7 @@ class GpuEnvironment : public testing::Environment {
  public:
   void SetUp() override {
     gpu::DeviceOptions options;
-    // Machines without the layer can run the tests all the same, but not by default.
+    // Machines without the validation layer can run the tests, too, but not by default.
     options.validation = std::getenv("ISOFIELD_TESTS_WITHOUT_VALIDATION") == nullptr;
     options.always_stage = std::getenv("ISOFIELD_TESTS_STAGE") != nullptr;
     if (const char* name = std::getenv("ISOFIELD_TESTS_DEVICE")) options.name = name;
@@ -29,8 +29,8 @@ class GpuEnvironment : public testing::Environment {
       std::exit(1);
     }
     the_device = *std::move(device);
-    // The tests need thousands of kernels. What they are specialised to is kept, so that one test process finds what
-    // another has made.
+    // The tests need thousands of kernels. The specialised code is kept, so that one test process finds what another
+    // has made.
     const char* const folder = std::getenv("ISOFIELD_TESTS_KERNELS");
     auto specialised = std::make_shared<engine::SpecialisedKernels>(folder ? folder : "");
     the_kernels = std::make_unique<engine::KernelCache>(
@@ -46,7 +46,7 @@ class GpuEnvironment : public testing::Environment {
   }
 };
 
-// Owned by GoogleTest.
+// GoogleTest owns the environment.
 [[maybe_unused]] testing::Environment* const environment = testing::AddGlobalTestEnvironment(new GpuEnvironment);
 
 }  // namespace

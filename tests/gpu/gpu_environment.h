@@ -1,4 +1,5 @@
-// The device of the GPU tests: opened once, under the validation layer. One validation message fails the run.
+// Gives the GPU tests their device, which is opened once, under the validation layer. One validation message fails the
+// run.
 #pragma once
 
 #include "base/workers.h"
@@ -14,15 +15,15 @@ engine::KernelCache& kernels();
 engine::VolumeCache& volumes();
 base::Workers& workers();
 
-// How many random scenes of each kind a test takes; two where ISOFIELD_TESTS_FEW_SCENES is set, since every kind of
-// scene has kernels of its own to compile.
+// Returns how many random scenes of each kind a test takes: `many`, or two if ISOFIELD_TESTS_FEW_SCENES is set, since
+// every kind of scene has kernels of its own to compile.
 std::uint64_t scene_count(std::uint64_t many);
 
-// Whether ISOFIELD_TESTS_FEW_KERNELS is set: on drivers that take seconds to compile one, tests of every operator take
-// two of the operators in all their forms, and the others as unions.
+// Returns whether ISOFIELD_TESTS_FEW_KERNELS is set, for drivers that take seconds to compile a kernel. The tests of
+// every operator then take two of the operators in all their forms, and the others as unions.
 bool few_kernels();
 
-// Read, compiled and uploaded; the process ends where that is refused.
+// Reads, compiles and uploads a scene. A refusal ends the process.
 engine::SceneLease resident(const v1::Scene& scene);
 
 }  // namespace isofield::gpu_test

@@ -1,4 +1,5 @@
-// Kernels are specialised before the driver sees them, kept while they are used, and compiled ahead of edits.
+// Tests that kernels are specialised before the driver sees them, kept while they are used, and compiled ahead of
+// edits.
 #include "engine/kernels/kernel_cache.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ TEST(KernelCache, TheLeastRecentlyUsedKernelIsFreed) {
   get(shaders::kMeshNear);
   EXPECT_EQ(get(shaders::kMeshShare), share);
   EXPECT_EQ(waits, 2);
-  get(shaders::kMeshList);  // kMeshNear goes
+  get(shaders::kMeshList);  // kMeshNear is freed
   EXPECT_EQ(kernels.counts().held, 2u);
   EXPECT_EQ(get(shaders::kMeshShare), share);
   EXPECT_EQ(waits, 3);
@@ -89,7 +90,7 @@ TEST(SpirvStore, KeepsWhatWasUsedLast) {
   const test_support::TemporaryFolder folder;
   const std::vector<std::uint32_t> kernel(1000);
   const auto is_there = [&](const engine::SpirvStore& store, const char* text) { return store.load(text).has_value(); };
-  const auto age = [&](int hours) {  // of all files that are there
+  const auto age = [&](int hours) {  // makes all present files older
     for (const auto& file : std::filesystem::directory_iterator(folder.path())) {
       std::filesystem::last_write_time(file, file.last_write_time() - std::chrono::hours(hours));
     }
@@ -102,13 +103,13 @@ TEST(SpirvStore, KeepsWhatWasUsedLast) {
     age(1);
     store.save("third", kernel);
     age(1);
-    EXPECT_TRUE(is_there(store, "first"));  // and so used last
+    EXPECT_TRUE(is_there(store, "first"));  // and so it is used last
   }
-  const engine::SpirvStore small(folder.path(), 9000);  // holds two
+  const engine::SpirvStore small(folder.path(), 9000);  // holds two kernels
   EXPECT_TRUE(is_there(small, "first"));
   EXPECT_FALSE(is_there(small, "second"));
   EXPECT_TRUE(is_there(small, "third"));
-  small.save("fourth", kernel);  // more than a sixteenth: one goes at once
+  small.save("fourth", kernel);  // more than a sixteenth of the limit, so one old file goes at once
   EXPECT_TRUE(is_there(small, "fourth"));
   EXPECT_EQ(is_there(small, "first") + is_there(small, "third"), 1);
 }
@@ -125,7 +126,7 @@ TEST(CompileAhead, MakesTheKernelsOfTheNextEdit) {
   ahead.edited(scene, no_operators, resident(*scene));
   ahead.wait();
   EXPECT_EQ(ahead.mixes(), 3u);
-  // The kernels for what a modeller adds next are specialised already.
+  // The kernels that a modeller's next edit needs are already specialised.
   const std::uint64_t made = specialised->made();
   EXPECT_GT(made, 0u);
   const KernelKind boxed = kind_of(kSpheres + R"({"name": "c", "box": {"half_size": [1, 1, 1], "range": 0.5}},

@@ -1,4 +1,4 @@
-// Creases of meshes, against the surfaces that meet there.
+// Compares the creases of meshes with the surfaces that meet there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using blobtree::dvec3;
 using engine::Mesh;
 
-// A side of a crease: its distance function, whose gradient has length 1, positive outside of it alone.
+// A side of a crease, as a distance function. Its gradient has length 1, and it is positive only outside of the solid.
 using Side = std::function<double(const dvec3&)>;
 
 dvec3 normal_of(const Side& side, const dvec3& p) {
@@ -33,7 +33,7 @@ dvec3 normal_of(const Side& side, const dvec3& p) {
          (0.5 / h);
 }
 
-// Where both sides are 0, by Newton's method along the shortest way from p.
+// Returns the point where both sides are 0, by Newton's method along the shortest way from p.
 dvec3 onto_crease(const Side& a, const Side& b, const dvec3& p) {
   dvec3 x = p;
   for (int step = 0; step < 8; ++step) {
@@ -64,14 +64,15 @@ dvec3 normal_of(const std::array<dvec3, 3>& corners) {
   return cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
 
-// Every edge between triangles of different sides has both ends on their crease within 0.5 % of a cell, and the edges
-// make up the whole crease.
+// Checks that every edge between triangles of different sides has both ends on their crease within 0.5 % of a cell, and
+// that the edges make up the whole crease.
 //
-// The two triangles at each of them meet, within a degree, at the angle at which they would with their corners exactly
-// on the sides: the edge's ends on both, the third corners on one each. Between flat sides that is the sides' angle. A
-// triangle inscribed in a curved side leans, by up to about its circumradius over the side's radius of curvature, and
-// most where the third corner lies past the edge's end, as beside cells that the crease cuts a corner of. How much more
-// it leans than the side does over it is due to the cells, and falls with their size: 4 degrees at most at 64 cells.
+// The angle of the two triangles at such an edge is compared with an exact one, within a degree: the triangles' angle
+// if their corners were exactly on the sides, the edge's ends on both and the third corners on one each. Between flat
+// sides that is the sides' angle. A triangle inscribed in a curved side leans by up to about its circumradius over the
+// side's radius of curvature. It leans most where the third corner lies past the edge's end, as beside cells of which
+// the crease cuts off a corner. The triangle leans more than the side does over it because of the cells, and this
+// excess falls with their size: it is at most 4 degrees at 64 cells.
 void expect_creases(const v1::Scene& scene, double cell, const std::vector<Side>& sides, double crease_length,
                     double iso = 0.5, double simplification_error = 0) {
   static engine::Mesher mesher(device(), kernels(), workers());
@@ -100,7 +101,7 @@ void expect_creases(const v1::Scene& scene, double cell, const std::vector<Side>
     const dvec3 a = position(v[0]), b = position(v[1]), c = position(v[2]);
     Face face{v, {a, b, c}, normal_of({a, b, c}), 0};
     const dvec3 middle = (a + b + c) * (1.0 / 3);
-    // The ends of a crease lie on both of its sides: the normal tells.
+    // The ends of a crease lie on both of its sides, so the normal decides.
     const auto off = [&](const Side& s) {
       return (std::abs(s(a)) + std::abs(s(b)) + std::abs(s(c))) / cell +
              0.01 * degrees_between(face.normal, normal_of(s, middle));
@@ -180,7 +181,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kCell = 2.0 / 64;
 
 TEST(MeshCreases, OfACube) {
-  // In general position, and on the lattice.
+  // The cube lies in general position, and then on the lattice.
   for (const dvec3& c : {dvec3{0.011, 0.007, -0.013}, dvec3{0, 0, 0}}) {
     v1::Scene scene = test_support::scene_of_nodes(R"([{"box": {"half_size": [1, 1, 1], "range": 0.5}}])");
     for (const double x : {c.x, c.y, c.z}) scene.mutable_nodes(0)->mutable_box()->add_center(x);
@@ -232,7 +233,7 @@ TEST(MeshCreases, OfACleanUnionOfCylinders) {
                                 plane({-1, 0, 0}, 1),
                                 plane({0, 0, 1}, 1),
                                 plane({0, 0, -1}, 1)};
-  // Where the thin cylinder leaves the thick one, by the angle around the thin one.
+  // The loop is where the thin cylinder leaves the thick one; t is the angle around the thin one.
   double loop = 0;
   const auto at = [](double t) {
     const double y = 0.35 * std::sin(t);

@@ -1,4 +1,4 @@
-// Meshes do not run through themselves: checked by CGAL.
+// Tests with CGAL that meshes do not intersect themselves.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 

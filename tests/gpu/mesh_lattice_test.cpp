@@ -1,4 +1,4 @@
-// Meshes of surfaces that run through points of the lattice: along its planes, its edges, and into its corners.
+// Tests meshes of surfaces that run through points of the lattice: along its planes, its edges, and into its corners.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
@@ -34,9 +34,9 @@ Mesh mesh_of(const v1::Scene& scene, const MeshRequest& request) {
   return mesh.ok() ? *std::move(mesh) : Mesh{};
 }
 
-// One of the 24 rotations of a cube, as two turns by multiples of 90 degrees that a scene states one after the other.
+// One of the 24 rotations of a cube, as two turns by multiples of 90 degrees. A scene states them one after the other.
 struct Turn {
-  int about_z = 0;      // in quarters, first
+  int about_z = 0;      // in quarters; this turn comes first
   dvec3 then{1, 0, 0};  // an axis, and the quarters about it
   int quarters = 0;
 
@@ -44,7 +44,7 @@ struct Turn {
     constexpr double kQuarter = std::numbers::pi / 2;
     return Affine::rotation(then, quarters * kQuarter).after(Affine::rotation({0, 0, 1}, about_z * kQuarter));
   }
-  // Nodes that turn the node of this name.
+  // Returns nodes that turn the node `child`.
   std::string nodes_above(const std::string& child) const {
     return absl::StrCat(R"(, {"name": "first turn", "transform": {"child": ")", child, R"(", "rotation": [0, 0, 1, )",
                         90 * about_z, R"(]}}, {"name": "turned", "transform": {"child": "first turn", "rotation": [)",
@@ -61,7 +61,7 @@ std::vector<Turn> turns() {
   return all;
 }
 
-// The furthest that one of these points is from the nearest vertex.
+// Returns the largest distance of one of these points from its nearest vertex.
 double furthest_corner(const Mesh& mesh, const std::vector<dvec3>& corners) {
   double furthest = 0;
   for (const dvec3& c : corners) {
@@ -94,7 +94,7 @@ struct Solid {
   std::size_t bodies;
   std::int64_t genus;
   double volume;
-  double more = 0;  // what a blend may add
+  double more = 0;  // a blend may add this much
 };
 
 void expect_solid(const Mesh& mesh, const Solid& solid, double cell, const std::string& what) {
@@ -106,7 +106,7 @@ void expect_solid(const Mesh& mesh, const Solid& solid, double cell, const std::
   EXPECT_LE(report.volume, solid.volume * (1 + 0.02 * cell) + solid.more) << what << ": " << report.text();
 }
 
-// Cells that divide every length of the solids below, and cells that divide none.
+// The first cells divide every length of the solids below; the second ones divide none.
 constexpr std::array<double, 4> kDividing{0.1, 0.05, 0.25, 0.125};
 constexpr std::array<double, 2> kOther{0.0871, 0.13};
 
@@ -155,8 +155,7 @@ TEST(MeshLattice, ShearedBoxesHaveAllTheirCorners) {
   std::cout << "the furthest corner is " << worst << " cells off\n";
 }
 
-// Tells which sides of a box, given from its own frame, cross edges of the cell of the lattice that holds a corner of
-// it.
+// Counts the sides of a box, given in its own frame, that cross edges of the lattice cell around a corner of the box.
 std::size_t sides_seen(const dvec3& corner, const dvec3& half, const Affine& map, double cell) {
   const Affine inverse = *map.inverse();
   const auto depths = [&](const dvec3& p) {
@@ -196,7 +195,7 @@ TEST(MeshLattice, BoxesTurnedAnyWayHaveMostOfTheirCorners) {
   test_support::Random random(5);
   const dvec3 half{1, 0.5, 0.5};
   constexpr double kCell = 0.08;
-  std::array<std::vector<double>, 4> cuts;  // by how many sides the corner's cell sees
+  std::array<std::vector<double>, 4> cuts;  // by the number of sides that the corner's cell sees
   for (int n = 0; n < 100; ++n) {
     const dvec3 axis{random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
     const double degrees = random.number(0, 180);
@@ -223,14 +222,14 @@ TEST(MeshLattice, BoxesTurnedAnyWayHaveMostOfTheirCorners) {
               << " within 0.02 cells, mean " << std::accumulate(c.begin(), c.end(), 0.0) / c.size() << ", 95 % within "
               << c[c.size() * 95 / 100] << ", the furthest " << c.back() << "\n";
   }
-  // The others lie in cells with several patches, or their creases end in the cells beside them. A corner in a cell
-  // none of whose edges the surface crosses is cut off: the vertices beside it keep to their own cells.
+  // The other corners lie in cells with several patches, or their creases end in the cells beside them. If the surface
+  // crosses no edge of a corner's cell, the corner is cut off, because the vertices beside it keep to their own cells.
   EXPECT_LE(cuts[3][cuts[3].size() * 99 / 100], 0.02);
   EXPECT_LE(cuts[2][cuts[2].size() * 9 / 10], 0.02);
   EXPECT_LE(cuts[0].back(), 1);
 }
 
-// Two boxes, and what is made of them, turned in every way and meshed with every cell.
+// Makes two boxes joined by the operation, turns them in every way, and meshes them with every cell size.
 void expect_of_pairs(const std::string& a, const std::string& b, const std::string& operation, bool is_signed,
                      const Solid& solid, bool counts_bodies = true) {
   const std::string pair = absl::StrCat(R"([{"name": "a", "box": {)", a, ", ", law_of(is_signed), R"(}},
@@ -311,11 +310,12 @@ TEST(MeshLattice, RoundSurfacesMayTouchItsPlanes) {
 }
 
 TEST(MeshLattice, OtherLevelsAndStatedBoundsMayFallOnIt) {
-  // The distance at which the field of a range of 0.5 is 0.3: w(R0 + (1 - R0) d / 0.5) = 0.3, w(r) = (1 - r^2)^3.
+  // `out` is the distance at which the field of a range of 0.5 is 0.3: w(R0 + (1 - R0) d / 0.5) = 0.3, w(r) = (1 -
+  // r^2)^3.
   const double r0 = std::sqrt(1 - std::cbrt(0.5)), r = std::sqrt(1 - std::cbrt(0.3)), out = 0.5 * (r - r0) / (1 - r0);
   const v1::Scene cube = test_support::scene_of_nodes(R"([{"name": "a", "box": {"half_size": [1, 1, 1], "range": 0.5}},
        {"name": "t", "transform": {"child": "a", "rotation": [1, 0, 0, 90]}}])");
-  // Beside its edges the level is rounded.
+  // The level set is rounded beside the cube's edges.
   const double half = 1 + out, cell = half / 16;
   const blobtree::Box beyond{{-half - 3 * cell, -half - 3 * cell, -half - 3 * cell},
                              {half + 3 * cell, half + 3 * cell, half + 3 * cell}};
@@ -328,7 +328,7 @@ TEST(MeshLattice, OtherLevelsAndStatedBoundsMayFallOnIt) {
   EXPECT_EQ(level.genus(), 0);
   constexpr double kPi = std::numbers::pi;
   EXPECT_NEAR(level.volume, 8 + 24 * out + 6 * kPi * out * out + 4 * kPi / 3 * std::pow(out, 3), 0.02);
-  // Bounds on the cube's own faces.
+  // These bounds lie on the cube's own faces.
   for (const double size : {0.1, 0.25, 0.07}) {
     const Mesh mesh = mesh_of(cube, {.cell_size = size, .bounds = blobtree::Box{{-1, -1, -1}, {1, 1, 1}}});
     const MeshReport report = test_support::check_mesh(mesh.positions, mesh.triangles);

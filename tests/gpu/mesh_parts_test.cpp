@@ -1,4 +1,4 @@
-// Meshes by bricks: in parts, and through edits.
+// Tests meshes by bricks: made in parts, and followed through edits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Place {
 struct InOrder {
   bool operator()(const Place& a, const Place& b) const { return engine::comes_before(a, b); }
 };
-// What one brick holds.
+// The vertices and triangles of one brick.
 struct Content {
   std::vector<float> positions, normals;
   std::vector<std::uint32_t> corners;
@@ -48,7 +48,7 @@ void put(const MeshCells& cells, Bricks& bricks) {
 }
 
 Bricks bricks_of(const engine::ResidentScene& scene, const MeshRequest& request) {
-  engine::Mesher mesher(device(), kernels(), workers());  // one that has kept nothing
+  engine::Mesher mesher(device(), kernels(), workers());  // it has kept nothing
   Bricks bricks;
   const absl::Status s = mesher.cells(scene, request, {}, [&](const MeshCells& cells) {
     EXPECT_TRUE(std::is_sorted(cells.bricks.begin(), cells.bricks.end(), engine::comes_before<MeshBrick, MeshBrick>));
@@ -125,7 +125,7 @@ TEST(MeshParts, AFailureToDeliverEndsTheWork) {
   EXPECT_EQ(s.message(), "enough");
 }
 
-// Spheres that lie densely, under one operator.
+// Makes a scene of densely placed spheres under one operator.
 v1::Scene balls(test_support::Random& random, int count, bool is_blended) {
   v1::Scene scene;
   for (int i = 0; i < count; ++i) {
@@ -159,7 +159,7 @@ TEST(MeshTracker, LeadsToTheMeshOfAFreshRequest) {
       if (step > 0) {
         auto& sphere = *scene.mutable_nodes(random.integer(0, 59))->mutable_sphere();
         switch (step % 5) {
-          case 0:  // across the model, perhaps over its edge
+          case 0:  // moves it across the model, perhaps over its edge
             for (int a = 0; a < 3; ++a) sphere.set_center(a, random.number(-1.3, 1.3));
             break;
           case 1:

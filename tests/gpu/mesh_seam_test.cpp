@@ -1,4 +1,4 @@
-// The normals of meshes along seams: where two surfaces meet at less than the angle of a crease.
+// Tests the normals of meshes along seams, where two surfaces meet at less than the angle of a crease.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ double degrees_between(const dvec3& a, const dvec3& b) {
   return std::atan2(length(cross(a, b)), dot(a, b)) / kDegrees;
 }
 
-// Two tubes that meet at `joint`, neither along an axis of the lattice. `along` and `inwards` span their plane; the
-// seam lies in the plane across `along`, on the side of `inwards`.
+// Two tubes that meet at `joint`; neither lies along an axis of the lattice. `along` and `inwards` span the plane of
+// the tubes. The seam lies in the plane across `along`, on the side of `inwards`.
 struct Bend {
   dvec3 joint, along, inwards, first, second;  // the tubes leave the joint along the last two
 
@@ -56,7 +56,7 @@ struct Bend {
 struct Union {
   const char *name, *op, *law;
   double iso;
-  double most_spread;  // root mean square of the seam's shading, in cells off the seam
+  double most_spread;  // root mean square distance of the shading's middle from the seam, in cells
 };
 constexpr const char* kPositive = R"("range": 0.1)";
 constexpr const char* kSigned = R"("law": "SIGNED")";
@@ -71,11 +71,11 @@ const Union kUnions[] = {
     {"bt2", R"("bt2": {"children": ["a", "b"], "r1": 0.1, "r2": 0.1, "eliminate_bulge": true})", kSigned, 0, 0.15},
 };
 
-// The facts of a vertex beside the seam.
+// The measurements of one vertex beside the seam.
 struct Beside {
-  double place;    // from the plane of the seam, in cells: negative on the first tube
-  double turn;     // between the tubes' normals there, in degrees; 0 where the tubes touch, on the outer side
-  double share;    // of the turn, that the vertex's normal has made
+  double place;    // distance from the plane of the seam, in cells; negative on the first tube
+  double turn;     // angle between the tubes' normals there, in degrees; 0 on the outer side, where the tubes touch
+  double share;    // the part of the turn that the vertex's normal has made
   double off_own;  // degrees between the vertex's normal and that of the tube it is on
 };
 
@@ -94,7 +94,7 @@ class MeshSeams : public testing::TestWithParam<Union> {
       const dvec3 p = at(mesh->positions) - bend.joint, n = at(mesh->normals);
       const dvec3 from = Bend::normal_of(p, bend.first), to = Bend::normal_of(p, bend.second), across = to - from;
       const bool is_first = dot(p, bend.along) < 0;
-      // Beyond its end a tube is a ball.
+      // A tube is a ball beyond its end.
       const bool is_on_ball = dot(p, is_first ? bend.first : bend.second) < 0;
       vertices_.push_back({dot(p, bend.along) / cell, dot(p, bend.inwards) > 0 ? degrees_between(from, to) : 0,
                            dot(n - from, across) / std::max(dot(across, across), 1e-12),
@@ -111,9 +111,9 @@ class MeshSeams : public testing::TestWithParam<Union> {
 INSTANTIATE_TEST_SUITE_P(Unions, MeshSeams, testing::ValuesIn(kUnions),
                          [](const auto& info) { return std::string(info.param.name); });
 
-// Along a seam half of the turn is made on the seam itself, and not up to a cell beside it by the accident of the
-// lattice. What is left comes from vertices within a cell of the seam from where the other tube is seen as the ball at
-// its end alone: beyond the radius times half the turn. Where the tubes touch normals are exact.
+// Half of the turn along a seam is made on the seam itself, and not up to a cell beside it by the accident of the
+// lattice. The rest comes from vertices within a cell of the seam that see only the ball at the end of the other tube:
+// this happens beyond the radius times half the turn. Normals are exact where the tubes touch.
 TEST_P(MeshSeams, AreShadedEvenly) {
   for (const double degrees : {10, 14, 20, 24}) {
     for (const double cells_per_radius : {3, 5, 8}) {
@@ -147,7 +147,7 @@ TEST_P(MeshSeams, AreShadedEvenly) {
   }
 }
 
-// At a crease every normal is that of one side.
+// Every normal at a crease is that of one side.
 TEST_P(MeshSeams, ThatAreCreasesStaySharp) {
   const std::string name = GetParam().name;
   if (name != "max" && name != "min") GTEST_SKIP() << "which is sharp on the surface alone";

@@ -1,4 +1,4 @@
-// Meshes made on the device.
+// Tests meshes made on the device.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,8 @@ absl::StatusOr<Mesh> mesh(const v1::Scene& scene, const MeshRequest& request,
   return mesher.mesh(*resident(scene), request, callbacks, shells);
 }
 
-// Far vertices, in cells by the linearised distance; and normals that do not follow the gradient.
+// Counts vertices that are far from the surface (in cells, by the linearised distance) and normals that do not follow
+// the gradient.
 void expect_on_surface(const Mesh& m, const v1::Scene& scene, double cell, double iso = 0.5) {
   const reference::Evaluator exact(test_support::read_or_die(scene));
   double worst = 0;
@@ -110,9 +111,9 @@ TEST(Mesher, MakesManifoldsOfRandomScenes) {
   for (const int nodes : {3, 10, 40, 120}) {
     for (std::uint64_t seed = 0; seed < scene_count(6); ++seed) {
       const v1::Scene scene = test_support::random_scene(50 * nodes + seed, {.nodes = nodes});
-      // Coarse cells against small features: the hard case for topology.
+      // Coarse cells against small features are the hard case for topology.
       for (const double cell : {0.31, 0.11, 0.05}) {
-        // A field that operators make more than 0 everywhere wants bounds.
+        // A field that operators make more than 0 everywhere needs bounds.
         const auto m = mesh(scene, {.cell_size = cell, .bounds = bounds_if_needed(scene)});
         ASSERT_TRUE(m.ok()) << m.status();
         if (m->triangles.empty()) continue;
@@ -146,7 +147,8 @@ TEST(Mesher, MakesManifoldsThatStayThatSimplified) {
 }
 
 TEST(Mesher, MakesManifoldsOfNoise) {
-  // Balls about as large as a cell: every case of the tables occurs, doubtful faces next to one another too.
+  // The balls are about as large as a cell, so every case of the tables occurs, even doubtful faces next to one
+  // another.
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     test_support::Random random(seed);
     v1::Scene scene;
@@ -194,7 +196,7 @@ TEST(Mesher, BringsVerticesAsNearAsTheToleranceSays) {
       distances.push_back(std::abs(s.value - 0.5) / length(s.gradient) / cell);
     }
     std::sort(distances.begin(), distances.end());
-    // Where the surface runs along a face of a cell, its vertices keep off that face, whatever is asked.
+    // If the surface runs along a face of a cell, its vertices keep off that face, whatever the tolerance is.
     const double most = distances[distances.size() * 97 / 100];
     std::cout << "tolerance " << tolerance << ": 97 % within " << most << ", the furthest " << distances.back() << "\n";
     EXPECT_LE(most, 1.5 * tolerance);
@@ -237,7 +239,7 @@ TEST(Mesher, StatesTheSmallestCellThatFits) {
   EXPECT_FALSE(mesh(sphere_scene(), request).ok()) << text;
 }
 
-// engine/mesh/cell_size.h: a ball of the radius holds a corner of a cell wherever it lies.
+// A ball of the radius holds a corner of a cell wherever it lies (engine/mesh/cell_size.h).
 TEST(Mesher, KeepsThinChainsWholeAtTheCoarsestCellThatIsSaidToDo) {
   constexpr double kRadius = 0.1;
   int torn = 0;
@@ -247,7 +249,7 @@ TEST(Mesher, KeepsThinChainsWholeAtTheCoarsestCellThatIsSaidToDo) {
     blobtree::dvec3 at = random.point(-1, 1);
     for (int i = 0; i < 60; ++i) {
       blobtree::dvec3 step = random.point(-1, 1);
-      // Along faces and diagonals of the cells too, where samples are the farthest.
+      // Some rods run along faces and diagonals of the cells, where samples are farthest apart.
       if (i % 3 == 0) step = {std::round(step.x), std::round(step.y), 0.5};
       const blobtree::dvec3 next = at + step * (0.7 / std::max(length(step), 0.1));
       absl::StrAppend(&nodes, R"({"segment": {"a": [)", at.x, ",", at.y, ",", at.z, R"(], "b": [)", next.x, ",", next.y,

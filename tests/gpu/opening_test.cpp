@@ -1,4 +1,4 @@
-// Opening functions on the device against exact arithmetic: at a given angle, and at the angle of two gradients.
+// Compares opening functions on the device with exact arithmetic: at a given angle, and at the angle of two gradients.
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ engine::OperatorEvaluator& evaluator() {
   return evaluator;
 }
 
-// Angles within [0, pi]: anywhere, and on either ramp, close to its ends above all.
+// Returns angles within [0, pi]: some anywhere, some on either ramp, and most of those close to the ramp's ends.
 std::vector<float> angles_of(const Opening& o, test_support::Random& random) {
   std::vector<float> alphas{0, static_cast<float>(kPi)};
   const double ends[] = {o.alpha0, o.alpha1, o.alpha2};
@@ -123,7 +123,7 @@ TEST(OpeningOnDevice, FollowsTheCubicsOfItsSamples) {
   test_support::figure("largest error of its slope over the steepest", worst.slope);
 }
 
-// A difference steers by the gradient of the first operand turned round, at pi - alpha, which float32 must not round.
+// A difference turns the first operand's gradient round, so its angle is pi - alpha, which float32 must not round.
 TEST(OpeningOnDevice, ADifferenceIsExactAtItsAngle) {
   const operators::Opening opening{kPi - 2.5e-3, kPi - 1.5e-3, kPi, kPi / 4, 0, kPi / 4, 0.3, 1};
   const operators::Operator op(operators::Gradient{.opening = opening}, operators::Form::kDifference);
@@ -153,8 +153,8 @@ std::string opening_json(const Opening& o) {
       o.theta2 / kDegree, o.w0, o.w1);
 }
 
-// Two soft spheres at points beside the line through their centres, where gradients are nearly parallel or opposed: the
-// cosine of their angle is within float32's rounding of 1 or -1.
+// The scene has two soft spheres. The points lie beside the line through their centres, where gradients are nearly
+// parallel or opposed: the cosine of their angle is within float32's rounding of 1 or -1.
 TEST(OpeningOnDevice, TheAngleOfGradientsIsGoodToRounding) {
   const dvec3 centres[] = {{0, 0, 0}, {0.3, 0, 0}};
   const Opening openings[] = {{0, 1e-3, 2e-3, kPi / 4, 0, kPi / 4, 0.3, 0.3},
@@ -184,14 +184,14 @@ TEST(OpeningOnDevice, TheAngleOfGradientsIsGoodToRounding) {
       const operators::Blend g = operators::gradient_blend(field(u), field(v), theta.v, {});
       const reference::Sample s = exact.evaluate(points[i]);
       ASSERT_NEAR(s.value, g.g, 1e-9);
-      // Where dg/dalpha is large, all that the value is off by comes from the angle.
+      // If dg/dalpha is large, all of the value's error comes from the angle.
       const double steep = std::abs(g.gt * theta.d1), error = std::abs(device[i].value - g.g);
       if (steep > 20) worst_angle = std::max(worst_angle, error / steep);
       most_steep = std::max(most_steep, steep);
       ASSERT_LE(error, 1.5e-6 + 4e-7 * steep) << "alpha " << alpha << " slope " << theta.d1;
-      // Beside float32's error of the rest: theta'' and dg/dtheta where the angle is off by its rounding, and the turn
-      // of the normal of two gradients that are nearly parallel; the angle changes by less than 30 a unit of length
-      // here.
+      // The gradient may be off by float32's error of the rest, by the changes of theta' and dg/dtheta within the
+      // angle's rounding, and by the turn of the normal of two nearly parallel gradients. The angle changes by less
+      // than 30 a unit of length here.
       constexpr double kRounding = 4e-7;
       const double bend = std::abs(o.theta(alpha + kRounding).d1 - o.theta(std::max(alpha - kRounding, 0.0)).d1);
       const double turn = std::abs(theta.d1) * kRounding;

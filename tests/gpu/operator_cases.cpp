@@ -84,7 +84,7 @@ std::vector<Case> cases() {
     add("r_union", RUnion{});
     add("pasko", Pasko{-0.4, 0.7, 1.2});
     add("functional", Functional{SampledCurve({0.0, 0.2, 0.5, 1.1}, {0.5, 0.4, 0.1, 0.0})});
-    // Control points close together, the first beyond 0, and a last one that is not 0.
+    // Two control points lie close together, the first lies beyond 0, and the last one is not 0.
     add("functional of uneven points", Functional{SampledCurve({0.1, 0.1005, 0.4, 0.9}, {0.3, 0.2998, 0.2, 0.25})});
     add("smooth_min", SmoothMin{0.6});
     const std::vector<Term> two{{0.8, 2, 1}, {1.1, 2, 1}};
@@ -138,7 +138,7 @@ FieldState exact_at(const Operator& op, double x1, double x2, double alpha, doub
 }
 
 bool is_smooth(const Operator& op, const std::vector<double>& x, const FieldState& here) {
-  // Where a form of positive fields is all but 0 it is clamped.
+  // A form of positive fields is clamped where it is nearly 0.
   if (op.law() == Law::kPositive && here.field.v < 1e-6) return false;
   for (std::size_t i = 0; i < x.size(); ++i) {
     for (const double step : {-1e-5, 1e-5}) {

@@ -1,4 +1,4 @@
-// The gradient blend and its opening functions on the device, against golden values and against exact arithmetic.
+// Compares the gradient blend and its opening functions on the device with golden values and with exact arithmetic.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -27,7 +27,7 @@ engine::OperatorEvaluator& evaluator() {
   return evaluator;
 }
 
-// Rows of g and its partials at rows of arguments.
+// Returns rows of g and its partials at rows of arguments.
 std::vector<float> evaluate(const operators::Operator& op, std::size_t operands, Steering steering,
                             const std::vector<float>& arguments) {
   const std::size_t columns = operands + (steering != Steering::kNone) + op.has_angular_ranges();
@@ -42,7 +42,7 @@ operators::Operator gradient(const Silhouette& silhouette) {
   return operators::Gradient{.silhouette = silhouette};
 }
 
-// g and its derivatives by f1, f2 and theta at (f1, f2, theta).
+// Returns g and its derivatives by f1, f2 and theta at each (f1, f2, theta).
 std::vector<Float4> probe_blend(const std::vector<Float4>& arguments, const Silhouette& silhouette) {
   std::vector<float> rows;
   for (const Float4& a : arguments) rows.insert(rows.end(), {a[0], a[1], a[2]});
@@ -99,7 +99,7 @@ TEST(OperatorOnDevice, ReproducesGoldenOpenings) {
   }
 }
 
-// What [G]'s 3-D texture took megabytes for.
+// [G] stores a blend in a 3-D texture of megabytes.
 TEST(OperatorOnDevice, ABlendTakesSixteenKilobytesOfTables) {
   using Kind = Silhouette::Kind;
   for (const auto& [silhouette, bytes] :
@@ -176,7 +176,7 @@ TEST(OperatorOnDevice, AgreesWithExactArithmeticOnRandomInput) {
       const Float4& a = arguments[i];
       const operators::Blend exact = operators::gradient_blend(a[0], a[1], a[2], silhouette);
       worst = std::max(worst, std::abs(results[i][0] - exact.g));
-      // A bulge folds at f1 = f2: its partials jump.
+      // A bulge folds at f1 = f2, and its partials jump there.
       if (silhouette.kind == Silhouette::Kind::kBulge && std::abs(a[0] - a[1]) < 0.02) continue;
       worst_partial = std::max({worst_partial, std::abs(results[i][1] - exact.g1), std::abs(results[i][2] - exact.g2),
                                 std::abs(results[i][3] - exact.gt)});

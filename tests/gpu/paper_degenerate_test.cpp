@@ -1,6 +1,6 @@
-// Degenerate input of the operators: zero gradients, identical and coincident operands, fields above 1, of 0, of a
-// million and one ulp apart, openings of 0 and 45 degrees, gradients exactly parallel and opposed. Finite everywhere,
-// and the device agrees with the reference.
+// Tests degenerate input of the operators: zero gradients, identical and coincident operands, fields above 1, of 0, of
+// a million and one ulp apart, openings of 0 and 45 degrees, and gradients exactly parallel and opposed. Results must
+// be finite everywhere, and the device must agree with the reference.
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
 #include <absl/strings/str_join.h>
@@ -40,8 +40,8 @@ std::string flat(int degrees) {
 
 struct Pair {
   const char* name;
-  std::string nodes;     // that define the children
-  std::string children;  // of the blend
+  std::string nodes;     // define the children
+  std::string children;  // children of the blend
 };
 
 TEST(PaperDegenerate, IsFiniteAndTheReferences) {
@@ -109,13 +109,13 @@ TEST(PaperDegenerate, IsFiniteAndTheReferences) {
             ASSERT_TRUE(std::isfinite(r.value) && std::isfinite(length(r.gradient))) << where();
           }
           const double error = std::abs(device[i].value - s.value) / std::max(1.0, s.value);
-          // The bulge of K = 1 ends in a vertical tangent at f1 = f2, which makes a root of what float32 leaves of
-          // f1 - f2.
+          // The bulge of K = 1 ends in a vertical tangent at f1 = f2, so the result contains the square root of
+          // float32's error of f1 - f2.
           const bool vertical = std::string(silhouette_name) == "bulge 1";
           (vertical ? worst_vertical : worst_value) = std::max(vertical ? worst_vertical : worst_value, error);
           EXPECT_LE(error, vertical ? 1e-3 : 4e-6) << where() << ": " << device[i].value << ", exact " << s.value;
           if (vertical) continue;
-          // As on random scenes: not where float32 coordinates cannot tell the side of a crease.
+          // As on random scenes, points are left out where float32 coordinates cannot tell the side of a crease.
           const double scale = std::max(length(s.gradient), 0.05);
           ++compared;
           if (test_support::gradient_variation(exact, p, 2e-6) > 5e-4 * scale) {
@@ -139,7 +139,7 @@ using operators::Kind;
 using operators::Law;
 using operators::Operator;
 
-// Beside cases(): the ends of parameters' ranges.
+// Returns cases() and more cases at the ends of parameters' ranges.
 std::vector<Case> extreme_cases() {
   std::vector<Case> all = cases();
   using namespace operators;
@@ -185,7 +185,7 @@ std::vector<float> degenerate_fields(Law law) {
   return all;
 }
 
-// Errors in parts of the largest number that takes part: what float32 sums are good for.
+// Errors are relative to the largest number in the row, because float32 sums are not better than that.
 TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesAtDegenerateFields) {
   double all_worst = 0;
   std::size_t all_rows = 0;
@@ -262,10 +262,10 @@ TEST(PaperDegenerate, GradientBlendsAreFiniteAndTheReferencesAtDegenerateFields)
   }
 }
 
-// A sphere, and a segment of no length, which is another.
+// The scene has a sphere, and a segment of no length, which is a sphere, too.
 struct Balls {
   const char* name;
-  double x, radius;  // of the second
+  double x, radius;  // of the second sphere
 };
 
 TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesOnDegenerateShapes) {
@@ -306,13 +306,13 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesOnDegenerateShapes) {
               << where() << (&r == &s ? ", reference: " : ", device: ") << r.value << " with gradient " << r.gradient.x
               << " " << r.gradient.y << " " << r.gradient.z;
         }
-        // A field moves with its slope where coordinates move by what float32 leaves of them.
+        // A field with a slope changes where float32 rounds the coordinates.
         const double slope = std::max(length(s.gradient), 0.05);
         const double scale =
             std::max({1.0, std::abs(s.value), std::min(length(p), 1e10) / least_weight(c.op), 0.1 * slope});
         const double error = std::abs(device[i].value - s.value) / scale;
         ++compared;
-        // An angle has no value at a centre, around which gradients point everywhere.
+        // Gradients around a centre point everywhere, so an angle has no value there.
         if (c.op.has_angular_ranges() && length(p - dvec3{pair.x, 0, 0}) * length(p) < 1e-6) {
           ++centres;
           continue;
@@ -323,7 +323,7 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesOnDegenerateShapes) {
           ++creases;
           continue;
         }
-        // As of partials in the conformance tests.
+        // The bound is that of partials in the conformance tests.
         const double turn = length(device[i].gradient - s.gradient) / std::max(slope, 1.0);
         worst_gradient = std::max(worst_gradient, turn);
         EXPECT_LE(turn, 2e-3) << where();
@@ -337,7 +337,7 @@ TEST(PaperDegenerate, EveryOperatorIsFiniteAndTheReferencesOnDegenerateShapes) {
   test_support::figure("points on creases", 100.0 * static_cast<double>(creases) / static_cast<double>(compared), "%");
 }
 
-// Squares of such fields are 0 in float32. Fields of primitives are no less than 1.7e-21 where they are not 0; a device
+// The squares of such fields are 0 in float32. Fields of primitives are at least 1.7e-21 if they are not 0. A device
 // that flushes denormals would have specks inside where two primitives end at the same place.
 TEST(PaperDegenerate, CleanUnionOfTinyFieldsIsTiny) {
   const Case clean{"clean", of_kind(Kind::kClean)};
@@ -351,7 +351,7 @@ TEST(PaperDegenerate, CleanUnionOfTinyFieldsIsTiny) {
   for (const double value : DeviceField(scene).values(points)) EXPECT_LT(value, 0.5);
 }
 
-// Its arcs have no radius where both fields are 0.5 but for rounding.
+// The arcs of the clean union have no radius where both fields are 0.5 up to rounding.
 TEST(PaperDegenerate, CleanUnionOfTwoFieldsOfAHalfIsFinite) {
   for (const double f1 : {0.5, std::nextafter(0.5, 1.0), 0.5 + 4e-16}) {
     for (const double f2 : {0.5, std::nextafter(0.5, 1.0), std::nextafter(0.5, 0.0)}) {
@@ -361,7 +361,7 @@ TEST(PaperDegenerate, CleanUnionOfTwoFieldsOfAHalfIsFinite) {
   }
 }
 
-// The 64th power of the depth inside would overflow in float32 from a depth of three ranges on.
+// The 64th power of the depth would overflow in float32 from a depth of three ranges on.
 TEST(PaperDegenerate, ASuperellipticBlendIsFiniteDeepInside) {
   const v1::Scene scene = test_support::scene_of_nodes(
       R"([{"name": "a", "sphere": {"radius": 1, "law": "SIGNED"}},
@@ -373,7 +373,7 @@ TEST(PaperDegenerate, ASuperellipticBlendIsFiniteDeepInside) {
     EXPECT_TRUE(std::isfinite(s.value) && std::isfinite(length(s.gradient)))
         << s.value << " with gradient " << s.gradient.x << " " << s.gradient.y << " " << s.gradient.z;
   }
-  // Cells so large that a corner is that deep.
+  // The cells are so large that a corner is as deep as that.
   const engine::Mesh mesh = DeviceField(scene).mesh(0.37);
   EXPECT_FALSE(mesh.positions.empty());
   for (const float x : mesh.positions) EXPECT_TRUE(std::isfinite(x)) << x;

@@ -50,14 +50,14 @@ double degrees_between(const dvec3& a, const dvec3& b) {
   return std::atan2(length(cross(a, b)), dot(a, b)) / kDegree;
 }
 
-// Angles in degrees of the points that stay, and how many do not.
+// Angles in degrees of the points that are compared, and the number of points that are left out.
 struct Angles {
   std::vector<double> of;
   int left_out = 0;
 
   void add(const dvec3& a, const dvec3& b) { of.push_back(degrees_between(a, b)); }
   double largest() const { return of.empty() ? 180 : *std::max_element(of.begin(), of.end()); }
-  // That share of the points are below.
+  // Returns the angle below which `share` of the points are.
   double quantile(double share) {
     if (of.empty()) return 180;
     std::sort(of.begin(), of.end());
@@ -83,8 +83,8 @@ Comparison compare(const v1::Scene& message, double cell, std::size_t most_point
   EXPECT_GT(points.size(), most_points / 2);
   const std::vector<reference::Sample> device = on_device.samples(points);
 
-  // 1.4 % of the range of a raw soft object of radius 1: float32 values are good for slopes to about 1e-4. A power of
-  // two, so that coordinates move by nearly what is asked.
+  // The step is 1.4 % of the range of a raw soft object of radius 1: float32 values give slopes to about 1e-4. It is a
+  // power of two, so that coordinates move by nearly the stated step.
   constexpr double kStep = 1.0 / 128;
   constexpr std::array<double, 4> kPlaces{-2, -1, 1, 2};
   std::vector<dvec3> stencil;
@@ -113,7 +113,7 @@ Comparison compare(const v1::Scene& message, double cell, std::size_t most_point
       }
       return dvec3{d[0], d[1], d[2]};
     };
-    // Slow, and a matter of the reference alone: at some of the points.
+    // This check is slow and concerns the reference only, so it runs at some of the points.
     if (i % 3 == 0) {
       const dvec3 coarse = differences(1e-4), fine = differences(1e-4 / 3);
       if (degrees_between(coarse, fine) > 0.01) {
@@ -136,7 +136,7 @@ Comparison compare(const v1::Scene& message, double cell, std::size_t most_point
   return all;
 }
 
-// `share` of the points must be within `degrees`.
+// Checks that `share` of the points are within `degrees`.
 void expect_within(Comparison c, const std::string& name, double share, double degrees, double most_left_out) {
   const std::pair<const char*, Angles*> pairs[] = {{"device to reference", &c.device_to_reference},
                                                    {"reference to its differences", &c.reference_to_differences},
@@ -186,14 +186,14 @@ TEST(PaperGradient, IsTheDerivativeOfTheFieldForOneBlend) {
                           0.07, 2000),
                   name, 0.999, 0.5,
                   // Both cylinders end in the same cap: f1 = f2 = 0.5 all over it, where camel is a clean union, whose
-                  // slope jumps at the surface. The gradient's direction does not.
+                  // slope jumps at the surface. The gradient's direction does not jump.
                   b.operands == joint && b.join == Join::kCamel ? 0.12 : 0.04);
   }
 }
 
 TEST(PaperGradient, IsTheDerivativeOfTheFieldForFourNestedBlends) {
   for (const Join join : {Join::kCamel, Join::kOrganic, Join::kContact}) {
-    // A body with four limbs, each blended with all before.
+    // The scene is a body with four limbs, each blended with all before it.
     const std::string nodes =
         absl::StrJoin(std::vector<std::string>{soft_segment("body", {-1, 0, 0}, {1, 0, 0}, 1.2),
                                                soft_segment("limb1", {0.9, 0, 0}, {1.8, 1.2, 0.3}, 0.8),
@@ -210,10 +210,10 @@ TEST(PaperGradient, IsTheDerivativeOfTheFieldForFourNestedBlends) {
   }
 }
 
-// Largest differences of gradients in parts of max(|gradient|, 0.05).
+// The largest differences of gradients, relative to max(|gradient|, 0.05).
 struct GradientErrors {
-  double to_differences = 0;  // of the reference's gradient from central differences of its value
-  double device = 0;          // of the device's from the reference's
+  double to_differences = 0;  // the reference's gradient from central differences of its value
+  double device = 0;          // the device's gradient from the reference's
   int points = 0, unsettled = 0, creases = 0;
 
   void include(const GradientErrors& e) {
@@ -225,8 +225,8 @@ struct GradientErrors {
   }
 };
 
-// At random points where the field is not constant, nor so steep that float32 cannot square its slope: super-elliptic
-// blends of super-elliptic blends grow beyond 1e75 inside.
+// Compares gradients at random points where the field is not constant, nor so steep that float32 cannot square its
+// slope: super-elliptic blends of super-elliptic blends grow beyond 1e75 inside.
 GradientErrors gradient_errors(const std::string& nodes) {
   const v1::Scene message = test_support::scene_of_nodes("[" + nodes + "]");
   const reference::Evaluator exact(test_support::read_or_die(message));
@@ -276,7 +276,7 @@ void expect_gradients(const std::string& name, const GradientErrors& e, double m
   EXPECT_LE(e.creases, most_unsettled * e.points) << name;
 }
 
-// Five primitives of either law that overlap around the origin.
+// Returns five primitives of either law that overlap around the origin.
 std::string overlapping(operators::Law law) {
   const char* last = law == operators::Law::kSigned ? R"("law": "SIGNED")" : R"("range": 0.9)";
   std::string all;
@@ -310,7 +310,7 @@ TEST(PaperGradient, IsTheDerivativeOfTheFieldForEveryOperatorNestedFourDeep) {
   GradientErrors all;
   std::set<std::tuple<operators::Kind, operators::Form, bool>> done;
   for (const Case& c : cases()) {
-    // One set of parameters each.
+    // One set of parameters of each kind is enough.
     if (c.operands != 2 || !done.insert({c.op.kind(), c.op.form, c.op.has_angular_ranges()}).second) continue;
     const GradientErrors e =
         gradient_errors(overlapping(c.op.law()) + operator_node(c.op, {"a", "b"}, "one") + "," +
@@ -325,7 +325,7 @@ TEST(PaperGradient, IsTheDerivativeOfTheFieldForEveryOperatorNestedFourDeep) {
   test_support::figure("points on creases", 100.0 * all.creases / all.points, "%");
 }
 
-// Gradient blends hardened, blended by the angle, softened and blended by the angle again.
+// The scene hardens gradient blends, blends them by the angle, softens the result and blends by the angle again.
 TEST(PaperGradient, IsTheDerivativeOfTheFieldThroughConversions) {
   for (const Join join : {Join::kCamel, Join::kOrganic, Join::kContact}) {
     for (const char* form : {"UNION", "INTERSECTION", "DIFFERENCE"}) {

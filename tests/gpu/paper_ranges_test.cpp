@@ -1,5 +1,5 @@
-// What [H] promises of blends with individual ranges: weights m_i leave the surface alone and decide only with what
-// range a later blend meets each primitive.
+// Tests what [H] promises of blends with individual ranges: weights m_i leave the surface alone, and decide only the
+// range with which a later blend meets each primitive.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ struct Family {
 constexpr Family kFamilies[] = {
     {"bt2", Kind::kBt2, 2}, {"btk of 2", Kind::kBtk, 2}, {"btk of 3", Kind::kBtk, 3}, {"btk of 5", Kind::kBtk, 5}};
 
-// Of random ranges, powers, conics and weights.
+// Returns an operator with random ranges, powers, conics and weights.
 Operator random_operator(const Family& family, Random& random) {
   std::vector<operators::Term> terms;
   for (std::size_t i = 0; i < family.operands; ++i) {
@@ -45,7 +45,7 @@ Operator random_operator(const Family& family, Random& random) {
   return operators::Btk{terms, {}};
 }
 
-// Within and around the ranges.
+// Returns rows of fields within and around the ranges.
 std::vector<float> random_rows(const Operator& op, Random& random, int rows) {
   std::vector<float> x;
   for (int i = 0; i < rows; ++i) {
@@ -54,7 +54,7 @@ std::vector<float> random_rows(const Operator& op, Random& random, int rows) {
   return x;
 }
 
-// For each of the families, `sets` operators with `rows` points each: test(operator, arguments, the device's results).
+// Calls test(operator, arguments, the device's results) for `sets` operators of a family, with `rows` points each.
 template <class Test>
 void for_random_operators(const Family& family, int sets, int rows, const Test& test) {
   Random random(41);
@@ -65,7 +65,7 @@ void for_random_operators(const Family& family, int sets, int rows, const Test& 
   }
 }
 
-// At random points, every other of which is moved to within 1e-4 of the surface.
+// Half of the random points are moved to within 1e-4 of the surface.
 TEST(PaperRanges, WeightsDoNotMoveTheZeroSet) {
   constexpr int kSets = 25, kRows = 10'000;
   std::size_t all = 0;
@@ -80,7 +80,7 @@ TEST(PaperRanges, WeightsDoNotMoveTheZeroSet) {
       std::vector<float> x = random_rows(op, random, kRows);
       const std::vector<float> levels = on_device({family.name, even, k}, x);
       for (std::size_t i = 0; i < kRows; i += 2) {
-        // All x_i less h are on the level h less.
+        // If every x_i is less by h, the level is less by h.
         const double move = random.number(-1e-4, 1e-4) - levels[i * (1 + k)];
         for (std::size_t c = 0; c < k; ++c) x[i * k + c] = static_cast<float>(x[i * k + c] + move);
       }
@@ -102,7 +102,8 @@ TEST(PaperRanges, WeightsDoNotMoveTheZeroSet) {
   EXPECT_EQ(all, 1'000'000u);
 }
 
-// min x_i / m_i, and whether a blend is there: [H] region II of bt2; of btk another bracket than the least one's.
+// The least x_i / m_i, and whether the operator blends there: in [H] region II of bt2, and for btk where another
+// bracket than the least field's one is positive.
 struct Least {
   double value = 0;
   bool is_blend = false;
@@ -137,7 +138,7 @@ TEST(PaperRanges, OutsideTheBlendALevelIsTheLeastField) {
         const double scale = std::max(1.0, std::abs(l.value));
         if (l.is_blend) {
           ++inside;
-          // Where the blend begins it is below by less than float32 tells.
+          // At its beginning the blend is below the least field by less than float32's rounding.
           const double exact_g =
               exact(op, {&x[i * family.operands], &x[i * family.operands] + family.operands}).field.v;
           EXPECT_LE(exact_g, l.value + 1e-14 * scale) << family.name;
@@ -188,7 +189,7 @@ TEST(PaperRanges, WithWeightsOfOneTheLeastFieldIsKeptToTheBit) {
   }
 }
 
-// [H] eqs. 2 and 3: the level line h is the zero set moved by (m_1 h, ..., m_k h).
+// In [H] eqs. 2 and 3 the level line h is the zero set moved by (m_1 h, ..., m_k h).
 TEST(PaperRanges, LevelsAreTheZeroSetMovedByTheWeights) {
   for (const Family& family : kFamilies) {
     double worst = 0;
@@ -260,8 +261,8 @@ Evaluator exact_scene(const std::string& nodes) {
   return Evaluator(test_support::read_or_die(scene(nodes)));
 }
 
-// Two crossing rods along x and y, blended with the weights 1 and `m`, and a post along z that stands on one of them
-// far from the other and is blended on with a range of 0.4.
+// Two crossing rods along x and y, blended with the weights 1 and `m`. A post along z stands on one of them, far from
+// the other, and is blended on with a range of 0.4.
 struct Post {
   static constexpr double kRodRadius = 0.3, kPostRadius = 0.2, kRange = 0.4, kAway = 3;
   bool on_first;
@@ -280,12 +281,12 @@ struct Post {
                        R"(, "children": ["rods", "post"]}})");
   }
   dvec3 along(double t) const { return on_first ? dvec3{t, 0, 0} : dvec3{0, t, 0}; }
-  // On the post, at this height above the rod; on the rod, at this distance from the post.
+  // on_post() is a point at a height above the rod, on_rod() one at a distance from the post.
   dvec3 on_post(double height) const { return along(kAway + kPostRadius) + dvec3{0, 0, kRodRadius + height}; }
   dvec3 on_rod(double distance) const { return along(kAway + kPostRadius + distance) + dvec3{0, 0, kRodRadius}; }
 };
 
-// How far out an edge is: the least t beyond which nothing is changed.
+// Returns how far out an edge is: the least t beyond which nothing is changed.
 double edge(const std::function<bool(double)>& is_changed) {
   double low = 0.01, high = 1;
   for (int i = 0; i < 50; ++i) {
@@ -305,7 +306,7 @@ TEST(PaperRanges, ALaterBlendMeetsAPrimitiveWithItsOwnRange) {
         const double along_post =
             edge([&](double t) { return all.value(p.on_post(t)) < post.value(p.on_post(t)) - 1e-14; });
         const double along_rod = edge([&](double t) { return all.value(p.on_rod(t)) < -1e-14; });
-        // The same seen by the device, at 2,000 heights: the greatest at which the post has moved.
+        // The device finds the same edge at 2,000 heights: it is the greatest height at which the post has moved.
         const DeviceField device_all(scene(p.all)), device_post(scene(p.post));
         std::vector<dvec3> points;
         for (int i = 1; i <= 2000; ++i) points.push_back(p.on_post(i / 2000.0));
@@ -320,14 +321,14 @@ TEST(PaperRanges, ALaterBlendMeetsAPrimitiveWithItsOwnRange) {
         figure(what + ": reaches along the post, device", device_edge);
         EXPECT_NEAR(along_post, Post::kRange * mine, 1e-5) << what;
         EXPECT_NEAR(along_rod, Post::kRange, 1e-5) << what;
-        // The blend leaves the post's surface like a parabola: 2e-7 are 0.001 from its edge.
+        // The blend leaves the post's surface like a parabola, so a move of 2e-7 is 0.001 from its edge.
         EXPECT_NEAR(device_edge, Post::kRange * mine, 4e-3) << what;
       }
     }
   }
 }
 
-// [H] fig. 9: hub and six spokes by one BTk, the rim by another; the spokes' weight is m.
+// The wheel of [H] fig. 9: one BTk joins hub and six spokes, another one joins the rim. The spokes' weight is m.
 struct Wheel {
   std::string nodes;
   v1::Scene message;
@@ -354,7 +355,7 @@ struct Wheel {
   }
 };
 
-// The point of the surface that descent along the gradient leads to.
+// Returns the point of the surface to which descent along the gradient leads.
 dvec3 onto(const Evaluator& surface, dvec3 p) {
   for (int i = 0; i < 30; ++i) {
     const reference::Sample s = surface.evaluate(p);
@@ -375,7 +376,7 @@ TEST(PaperRanges, WeightsOfAWheelsSpokesChangeItsOuterJointsOnly) {
   for (std::size_t v = 0; v + 2 < mesh.positions.size(); v += 3) {
     const dvec3 p = onto(even.exact, {mesh.positions[v], mesh.positions[v + 1], mesh.positions[v + 2]});
     const double distance = length(onto(less.exact, p) - p);
-    // An outer joint: within the blend's range of the rim, and of a spoke.
+    // An outer joint is within the blend's range of the rim and of a spoke.
     double to_spoke = 10;
     for (int i = 0; i < 6; ++i) {
       const dvec3 axis = Wheel::spoke_end(i) * (1 / 1.62);
@@ -390,7 +391,7 @@ TEST(PaperRanges, WeightsOfAWheelsSpokesChangeItsOuterJointsOnly) {
       most_away = std::max(most_away, distance);
     }
   }
-  // On the device the first-order distance.
+  // On the device the distance is measured to first order.
   double most_device = 0;
   for (const reference::Sample& s : DeviceField(less.message).samples(away)) {
     most_device = std::max(most_device, std::abs(s.value) / length(s.gradient));
@@ -408,7 +409,7 @@ TEST(PaperRanges, WeightsOfAWheelsSpokesChangeItsOuterJointsOnly) {
   EXPECT_GT(at_joints, 500u);
 }
 
-// How far a ray from within goes, in parts of `radius`, less 1.
+// Returns how far a ray from within goes, relative to `radius`, less 1.
 double growth(const Evaluator& e, const dvec3& origin, const dvec3& direction, double radius) {
   const auto t = test_support::exit_distance([&](const dvec3& p) { return -e.value(p); }, origin, direction, 2, 400, 0);
   return t ? *t / radius - 1 : std::nan("");
@@ -429,7 +430,7 @@ TEST(PaperRanges, BulgeEliminationKeepsTheRadiusOfAlignedCylinders) {
       for (const bool eliminates : {false, true}) {
         const std::string nodes = aligned + "," + eliminating(kind, eliminates);
         const Evaluator e = exact_scene(nodes);
-        // Where the cylinders overlap, and beyond the ends inside.
+        // Errors are measured where the cylinders overlap, and inside beyond the ends.
         double overlap = 0, beyond = 0;
         std::vector<dvec3> surface;
         for (int i = -150; i <= 150; ++i) {
@@ -448,7 +449,7 @@ TEST(PaperRanges, BulgeEliminationKeepsTheRadiusOfAlignedCylinders) {
         EXPECT_LE(device_off, 2e-6) << what;
         if (eliminates) {
           EXPECT_LE(overlap, 0.01) << what;
-          // A flat end meets the other's side at a right angle: for the blend it is a joint.
+          // A flat end meets the other cylinder's side at a right angle, so the blend treats it as a joint.
           if (!is_flat) {
             EXPECT_LE(beyond, 0.01) << what;
           }
@@ -457,7 +458,7 @@ TEST(PaperRanges, BulgeEliminationKeepsTheRadiusOfAlignedCylinders) {
         }
       }
     }
-    // Crossing ones: how far the blend goes out along the bisector from the edge of the union.
+    // The cylinders cross here. The figure is how far the blend goes out along the bisector from the edge of the union.
     const std::string crossing = signed_segment("left", {-2, 0, 0}, {2, 0, 0}, kRadius) + "," +
                                  signed_segment("right", {0, -2, 0}, {0, 2, 0}, kRadius);
     const double edge_of_union = kRadius * std::numbers::sqrt2;

@@ -1,5 +1,5 @@
-// What [G] promises of its blends' shapes: no bulge along aligned parts, no blending at a distance, no absorbed detail,
-// and contact surfaces that deform only where they touch.
+// Tests what [G] promises of its blends' shapes: no bulge along aligned parts, no blending at a distance, no absorbed
+// detail, and contact surfaces that deform only where they touch.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct Model {
   Model(const std::string& operands, Join join, const std::vector<std::string>& children)
       : Model(operands + "," + join_node(join, children)) {}
 
-  // Where each ray leaves the solid; NaN where it does not within its reach.
+  // Returns the distance at which each ray leaves the solid, or NaN if it does not within its reach.
   std::vector<double> exits(const std::vector<Ray>& rays) const {
     std::vector<double> found;
     for (const Ray& r : rays) {
@@ -48,7 +48,7 @@ struct Model {
     return found;
   }
 
-  // The largest difference of these exits from the device's own.
+  // Returns the largest difference of these exits from the device's own.
   double device_error(const std::vector<Ray>& rays, const std::vector<double>& exits) const {
     const DeviceField field(scene);
     constexpr double kBracket = 2e-4;
@@ -100,9 +100,9 @@ TEST(PaperBulge, AlignedCylindersKeepTheirRadius) {
   }
 }
 
-// Two raw soft spheres of radius 1 whose surfaces are `gap` apart (negative: they overlap), along x.
+// Two raw soft spheres of radius 1 along x, whose surfaces are `gap` apart; a negative gap is an overlap.
 struct TwoSpheres {
-  double distance;  // of the centres
+  double distance;  // between the centres
   std::string operands;
 
   explicit TwoSpheres(double gap)
@@ -112,21 +112,21 @@ struct TwoSpheres {
 
 struct Movement {
   double first_order = 0;  // (g - 0.5) / |grad f1| on the surface of a sphere
-  double radial = 0;       // of the blend's surface from the nearer sphere's
+  double radial = 0;       // distance of the blend's surface from that of the nearer sphere
   double device_first_order = 0;
-  double device_error = 0;  // of the radial one
+  double device_error = 0;  // error of the radial movement
 };
 
-// In parts of the radius.
+// Returns the movement relative to the radius.
 Movement movement(double gap, Join join) {
   const TwoSpheres pair(gap);
   const Model model(pair.operands, join, {"first", "second"});
   std::vector<Ray> rays;
   std::vector<dvec3> on_sphere;
-  // Densest towards the other sphere.
+  // The rays are densest towards the other sphere.
   for (int i = 0; i <= 600; ++i) {
     const double angle = std::numbers::pi * std::pow(i / 600.0, 2);
-    // As far as the plane of symmetry: beyond it the surface is the other sphere's.
+    // The rays end at the plane of symmetry, beyond which the surface is the other sphere's.
     const double plane = std::cos(angle) > 0 ? pair.distance / 2 / std::cos(angle) : 1;
     rays.push_back({{0, 0, 0}, {std::cos(angle), std::sin(angle), 0}, std::min(plane, 1.0)});
     on_sphere.push_back(rays.back().direction * kSoftRadius);
@@ -162,13 +162,13 @@ Movement reported(double gap, Join join) {
   return m;
 }
 
-// Bounds in parts of the radius.
+// The bounds are relative to the radius.
 struct Bound {
   double gap, first_order, radial;
 };
 
-// [G]'s movement is the first-order one. A surface that a blend moves far has moved further: where camel's has gone
-// out to meet the other sphere, the blend's own slope is smaller.
+// [G]'s movement is the first-order one. If a blend moves a surface far, its real movement is larger: the blend's own
+// slope is smaller where camel's surface goes out to meet the other sphere.
 TEST(PaperLocality, CamelHardlyMovesASphereBesideAnother) {
   for (const Bound& b :
        {Bound{0.001, 0.019, 0.07}, Bound{0.01, 0.013, 0.022}, Bound{0.1, 4e-5, 4e-5}, Bound{0.2, 3e-7, 3e-7}}) {
@@ -200,8 +200,8 @@ TEST(PaperLocality, SumMovesIt) {
   }
 }
 
-// On the axis the gradients are opposed and camel is a union. Off it the angle between them falls faster than the
-// fields do, and camel opens: so two spheres that nearly touch join along a ring around the axis, which encloses a
+// On the axis the gradients are opposed, and camel is a union. Beside it the angle between them falls faster than the
+// fields do, and camel opens. So two spheres that nearly touch join along a ring around the axis, which encloses a
 // void.
 TEST(PaperLocality, CamelJoinsSpheresAlongARingOnlyWhenTheyNearlyTouch) {
   const auto highest_between = [](double gap, Join join) {
@@ -226,14 +226,14 @@ TEST(PaperLocality, CamelJoinsSpheresAlongARingOnlyWhenTheyNearlyTouch) {
 }
 
 TEST(PaperAbsorption, ASpikeKeepsItsLength) {
-  // Thin spikes of several lengths on a ball of radius 0.454.
+  // The scenes have thin spikes of several lengths on a ball of radius 0.454.
   for (const double tip : {0.52, 0.6, 0.8}) {
     const double thickness = 0.05, length = tip - kSoftRadius;
     const std::string operands = soft_sphere("ball", {0, 0, 0}, 1) + "," +
                                  soft_segment("spike", {0.3, 0, 0}, {tip - thickness * kSoftRadius, 0, 0}, thickness);
     for (const Join join : {Join::kCamel, Join::kOrganic, Join::kContact, Join::kSum}) {
       const Model model(operands, join, {"ball", "spike"});
-      // From the ball's far side, which nothing moves.
+      // One ray goes to the ball's far side, which nothing moves.
       const std::vector<Ray> rays{{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {-1, 0, 0}}};
       const std::vector<double> exits = model.exits(rays);
       const double kept = (exits[0] - exits[1]) / length;
@@ -257,7 +257,7 @@ TEST(PaperContact, SurfacesMoveOnlyWhereTheyNearlyTouch) {
   }
 }
 
-// The root of a function that is positive at low and not at high.
+// Returns the root of a function that is positive at low and not at high.
 double root(double low, double high, const std::function<bool(double)>& positive) {
   for (double middle = (low + high) / 2; middle > low && middle < high; middle = (low + high) / 2) {
     (positive(middle) ? low : high) = middle;
@@ -270,7 +270,7 @@ TEST(PaperContact, OverlappingSurfacesFoldWhereTheFieldsAreEqual) {
   const std::string rod = soft_segment("second", {0.6, -1, 0.1}, {0.7, 1, -0.1}, 0.8);
   const Model first(ball), second(rod), both(ball + "," + rod, Join::kContact, {"first", "second"});
   constexpr double kOffset = 1e-7;
-  // Where f1 = f2 on the surface, around the axis: the normal jumps across.
+  // The normal must jump across the curve around the axis where f1 = f2 on the surface.
   double least_jump = 180, most_jump = 0;
   for (int i = 0; i < 48; ++i) {
     const double around = 2 * std::numbers::pi * i / 48;
@@ -285,7 +285,7 @@ TEST(PaperContact, OverlappingSurfacesFoldWhereTheFieldsAreEqual) {
     least_jump = std::min(least_jump, jump);
     most_jump = std::max(most_jump, jump);
   }
-  // Everywhere else it does not.
+  // The normal must not jump anywhere else.
   double most_turn = 0, nearest = 1;
   const engine::Mesh mesh = DeviceField(both.scene).mesh(0.03);
   int points = 0;

@@ -1,7 +1,7 @@
-// [G]: blends of blends stay smooth. A reflection line follows the normal; its second derivative along a path on the
-// surface must have no jump, which shows as differences between neighbouring samples that shrink with their distance.
-// In double precision, on the reference: float32 has no second differences to speak of. What links the device to it is
-// in the other tests.
+// Tests the claim of [G] that blends of blends stay smooth. A reflection line follows the normal. Its second derivative
+// along a path on the surface must have no jump, so differences between neighbouring samples must shrink with their
+// distance. The test runs in double precision on the reference, because float32 is too coarse for second differences.
+// Other tests compare the device with the reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using test_support::soft_sphere;
 
 using Solid = std::function<Sample(const dvec3&)>;
 
-// Four spheres, whose own fields have all derivatives, in each other's range.
+// Four spheres in each other's range; their own fields have all derivatives.
 const std::vector<std::string>& spheres() {
   static const std::vector<std::string> all{soft_sphere("a", {0, 0, 0}, 1.5), soft_sphere("b", {0.7, 0.1, 0.1}, 1),
                                             soft_sphere("c", {-0.3, 0.7, 0}, 1),
@@ -40,7 +40,7 @@ Evaluator evaluator(const std::string& nodes) {
   return Evaluator(test_support::read_or_die(test_support::scene_of_nodes("[" + nodes + "]")));
 }
 
-// Three blends, one after another.
+// Makes three blends, one after another.
 template <class Node>
 Solid three_blends(const Node& node) {
   std::string nodes;
@@ -57,7 +57,7 @@ Solid three_barthe_blends() {
   });
 }
 
-// A reflection line along the curve in which a plane cuts the surface, at `count` angles around a point within.
+// Returns a reflection line along the curve in which a plane cuts the surface, at `count` angles around a point inside.
 std::vector<double> reflections(const Solid& solid, int count) {
   const dvec3 centre{0, 0, 0.1}, view{0.36, 0.48, 0.8}, pattern{0.6, 0, 0.8};
   std::vector<double> line;
@@ -79,7 +79,7 @@ std::vector<double> reflections(const Solid& solid, int count) {
   return line;
 }
 
-// The largest difference between neighbouring second derivatives by divided differences.
+// Returns the largest difference between neighbouring second derivatives by divided differences.
 double largest_jump(const std::vector<double>& line) {
   const std::size_t n = line.size();
   const double h = 2 * std::numbers::pi / static_cast<double>(n);
@@ -92,10 +92,10 @@ double largest_jump(const std::vector<double>& line) {
   return jump;
 }
 
-// Steps h, h/2, h/4, h/8 with h = 1.4 degrees. Much finer ones see that the functions of [G] are not flat to the last
-// bit: E(0) = 2.6e-7 and E'(0) = 1.1e-5 instead of 0, so that the blend's gradient steps by about 1e-5 (a thousandth of
-// a degree) where its region begins. That is below float32, but a second difference at h = 0.05 degrees magnifies it
-// by a million.
+// The steps are h, h/2, h/4 and h/8 with h = 1.4 degrees. Much finer ones see that the functions of [G] are not flat to
+// the last bit: E(0) = 2.6e-7 and E'(0) = 1.1e-5 instead of 0, so the blend's gradient steps by about 1e-5 (a
+// thousandth of a degree) where its region begins. That is below float32, but a second difference at h = 0.05 degrees
+// magnifies it by a million.
 constexpr int kSteps[] = {250, 500, 1000, 2000};
 
 std::vector<double> reported_jumps(const std::string& name, const Solid& solid) {
@@ -113,7 +113,7 @@ TEST(PaperSmoothness, ReflectionLinesOfThreeBlendsHaveASecondDerivative) {
         reported_jumps(text(join), three_blends([&](const std::vector<std::string>& children, const std::string& name) {
                          return join_node(join, children, name);
                        }));
-    // In proportion to the step, once it resolves the curve.
+    // The jump is proportional to the step, once the step resolves the curve.
     EXPECT_LT(jumps[1], 0.8 * jumps[0]) << text(join);
     EXPECT_LT(jumps[2], 0.6 * jumps[1]) << text(join);
     EXPECT_LT(jumps[3], 0.55 * jumps[2]) << text(join);

@@ -1,4 +1,4 @@
-// [G]: blends that do not fill holes. Genera of meshes made on the device.
+// Tests the claim of [G] that its blends do not fill holes, by the genera of meshes made on the device.
 #include <absl/strings/str_join.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ MeshReport meshed(const std::string& nodes, double cell) {
   return report;
 }
 
-// Four raw soft segments of radius 1 along the edges of a square, as the children of one node.
+// Joins four raw soft segments of radius 1 along the edges of a square, as the children of one node.
 MeshReport square(double side, const std::vector<std::string>& order, Join join, double cell) {
   const double h = side / 2;
   return meshed(
@@ -35,7 +35,7 @@ MeshReport square(double side, const std::vector<std::string>& order, Join join,
       cell);
 }
 
-// Operators are folded in the order written: around the square, and opposite sides first.
+// Operators fold their children in the written order: around the square, or opposite sides first.
 const std::vector<std::string> kAround{"south", "east", "north", "west"};
 const std::vector<std::string> kOpposite{"south", "north", "east", "west"};
 
@@ -57,8 +57,8 @@ TEST(PaperTopology, ASquareOfSegmentsKeepsItsHole) {
 }
 
 TEST(PaperTopology, CamelLosesAHoleOfATenthOfTheRadiusAndOrganicKeepsIt) {
-  // The hole of the union is 2 (0.5 - 0.4542) = 0.092 across. What is left of it under organic is smaller and, as
-  // pairwise blends are, not symmetric.
+  // The hole of the union is 2 (0.5 - 0.4542) = 0.092 across. Organic leaves a smaller part of it, which is not
+  // symmetric because blends are pairwise.
   for (const auto* order : {&kAround, &kOpposite}) {
     for (const auto& [join, genus] : {std::pair{Join::kMax, 1}, std::pair{Join::kSum, 0}, std::pair{Join::kCamel, 0},
                                       std::pair{Join::kOrganic, 1}}) {
@@ -73,7 +73,7 @@ TEST(PaperTopology, CamelLosesAHoleOfATenthOfTheRadiusAndOrganicKeepsIt) {
 }
 
 TEST(PaperTopology, ARodThroughARingLeavesItsHole) {
-  // 0.073 between rod and ring.
+  // The gap between rod and ring is 0.073.
   for (const Join join : {Join::kMax, Join::kSum, Join::kCamel, Join::kOrganic}) {
     const MeshReport report =
         meshed(test_support::soft_torus("ring", 0.8, 0.9) + "," + soft_segment("rod", {0, 0, -1.5}, {0, 0, 1.5}, 0.7) +

@@ -1,4 +1,5 @@
-// Every kind of primitive by itself, of either law and however it is placed, on the device and in double precision.
+// Compares every kind of primitive on the device with double precision: by itself, of either law, and under several
+// maps.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ namespace {
 using blobtree::dvec3;
 using test_support::PrimitiveNode;
 
-// As it is, turned and scaled, and under a map that keeps no angles.
+// The primitive is left as it is, turned and scaled, and put under a map that keeps no angles.
 constexpr const char* kMaps[] = {"", R"("rotation": [1, 2, -3, 40], "scale": [1.5], "translation": [0.2, -0.1, 0.3])",
                                  R"("rotation": [1, 1, 0, 25], "scale": [1.4, 0.7, 1], "translation": [0.1, 0, -0.2])"};
 
@@ -29,7 +30,7 @@ std::vector<dvec3> points_around(std::uint64_t seed, int count) {
   return points;
 }
 
-// Compares values and, where it holds still around a point, the gradient.
+// Compares values and, where the gradient holds still around a point, gradients.
 void expect_as_reference(const std::string& nodes, double tolerance) {
   SCOPED_TRACE(nodes);
   const v1::Scene scene = test_support::scene_of_nodes(nodes);
@@ -67,7 +68,7 @@ TEST(Primitives, AreTheReferencesOfEitherLawAndUnderAnyMap) {
   }
 }
 
-// The blend's gradient has the second derivatives of its operands.
+// The gradient of the blend contains second derivatives of its operands.
 TEST(Primitives, BlendByTheirGradientsAsTheReferenceDoes) {
   for (const PrimitiveNode& primitive : test_support::primitive_nodes()) {
     for (const char* map : {kMaps[0], kMaps[2]}) {

@@ -1,4 +1,4 @@
-// Slices of fields, their level curves, and measures of meshes.
+// Tests slices of fields, their level curves, and measures of meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ v1::Scene ball_scene() {
 
 TEST(Slicer, GivesTheSameBitsAsTheLattice) {
   const engine::SceneLease scene = resident(test_support::random_scene(8, {.nodes = 60}));
-  // Exact in float32.
+  // The lattice is exact in float32.
   const blobtree::Lattice lattice{{-2.125, -1.875, 0.25}, {0.15625, 0.140625, 1}, {27, 30, 1}};
   std::vector<float> grid(27 * 30);
   ASSERT_TRUE(fields().evaluate_layers(*scene, lattice, 0, engine::ResultLayout::kValue, grid).ok());
@@ -38,7 +38,7 @@ TEST(Slicer, GivesTheSameBitsAsTheLattice) {
 }
 
 TEST(Slicer, DrawsTheCircleOfASphere) {
-  // A slanted plane through the centre.
+  // The plane is slanted and goes through the centre.
   const double h = std::sqrt(0.5);
   engine::Plane plane{{}, {1, 0, 0}, {0, h, h}, {0.02, 0.025}, {141, 121}};
   plane.origin = dvec3{0.1, 0.2, -0.3} - plane.u * 1.4 - plane.v * 1.5;
@@ -61,12 +61,12 @@ TEST(Slicer, DrawsTheCircleOfASphere) {
 }
 
 TEST(IsoLines, EndAtTheBorderAndJoinByTheMean) {
-  // Two corners above: joined where the mean of the four is above too.
+  // Two corners are above the level. They are joined if the mean of the four corners is above it, too.
   const std::vector<float> joined{1, 0, 0, 1}, parted{1, 0, 0, 0.9f};
   EXPECT_EQ(engine::iso_lines(joined, {2, 2}, 0.4f).starts, (std::vector<std::uint32_t>{0, 2, 4}));
   const engine::Polylines apart = engine::iso_lines(parted, {2, 2}, 0.5f);
   ASSERT_EQ(apart.starts, (std::vector<std::uint32_t>{0, 2, 4}));
-  // Each about its own corner.
+  // Each line is around its own corner.
   for (const std::size_t line : {0u, 4u}) {
     const float* p = &apart.points[line];
     EXPECT_LE(std::hypot(p[0] - p[2], p[1] - p[3]), 0.75);

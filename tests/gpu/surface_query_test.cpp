@@ -1,4 +1,4 @@
-// Rays and projections on the device, against the reference and against formulas.
+// Compares rays and projections on the device with the reference and with formulas.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct Rays {
     for (const double x : {direction.x, direction.y, direction.z}) directions.push_back(static_cast<float>(x));
   }
   std::size_t size() const { return origins.size() / 3; }
-  // As the caster has it.
+  // Returns the ray as the caster has it.
   blobtree::Ray at(std::size_t i) const {
     const dvec3 o{origins[3 * i], origins[3 * i + 1], origins[3 * i + 2]};
     const dvec3 d{directions[3 * i], directions[3 * i + 1], directions[3 * i + 2]};
@@ -79,7 +79,7 @@ TEST(RayCaster, HitsASphereWhereTheFormulaDoes) {
     const dvec3 o = ray.origin - centre;
     const double b = dot(o, ray.direction), c = dot(o, o) - 1, root2 = b * b - c;
     EXPECT_EQ(hits.inside[i], c < 0);
-    // Rays that graze, for less than a cell, may miss.
+    // Rays that graze the sphere for less than a cell may miss it.
     if (root2 > 0 && root2 < hits.cell_size * hits.cell_size) continue;
     const double t = c < 0 ? -b + std::sqrt(root2) : -b - std::sqrt(root2);
     if (!(root2 > 0) || t < 0) {
@@ -88,7 +88,7 @@ TEST(RayCaster, HitsASphereWhereTheFormulaDoes) {
       continue;
     }
     ++hit;
-    // What the field's error of 2e-5 is along a ray that is not perpendicular.
+    // The bound allows for the field's error of 2e-5 along a ray that is not perpendicular.
     worst = std::max(worst, std::abs(hits.distances[i] - t));
     ASSERT_NEAR(hits.distances[i], t, 5e-5) << i;
     const dvec3 p = row(hits.positions, i);
@@ -118,7 +118,7 @@ TEST(RayCaster, HitsBoxesAndToriWhereTheFormulasDo) {
   EXPECT_LE(length(row(hits.normals, 0) - dvec3{-1, 0, 0}), 1e-5);
   EXPECT_LE(length(row(hits.normals, 1) - dvec3{0, 0, 1}), 1e-5);
   EXPECT_LE(length(row(hits.normals, 2) - dvec3{0, 1, 0}), 1e-5);
-  // The field is 0.5 along the face: rounding decides, but what is hit is there.
+  // The field is 0.5 along the face, so rounding decides, but a hit must be on the face.
   if (std::isfinite(hits.distances[3])) {
     EXPECT_NEAR(hits.positions[10], 0.5, 1e-5);
   }
@@ -141,11 +141,11 @@ TEST(RayCaster, HitsBoxesAndToriWhereTheFormulasDo) {
   EXPECT_NEAR(hits.distances[4], 0.25, 1e-5);
 }
 
-// The first change of side along a ray that lasts for a cell, by small steps of the reference.
+// The first change of side along a ray that lasts for a cell, found by small steps of the reference.
 struct Marched {
   bool begins_inside = false;
-  double first_change = std::numeric_limits<double>::infinity();  // of any length
-  double sure_change = std::numeric_limits<double>::infinity();   // that lasts
+  double first_change = std::numeric_limits<double>::infinity();  // it may be of any length
+  double sure_change = std::numeric_limits<double>::infinity();   // it lasts
 };
 Marched march(const reference::Evaluator& exact, const engine::IsoLevel& level, const blobtree::Ray& ray, double end,
               double cell) {
@@ -177,7 +177,7 @@ TEST(RayCaster, FollowsTheReferenceOnRandomScenes) {
       const engine::SceneLease scene = resident(message);
       const reference::Evaluator exact(test_support::read_or_die(message));
       const engine::IsoLevel level{scene->tape().law == operators::Law::kSigned ? 0.0 : 0.5, scene->tape().law};
-      // A field that operators make more than 0 everywhere wants bounds; they are far, so that no ray enters them.
+      // A field that operators make more than 0 everywhere needs bounds. They are far away, so that no ray enters them.
       const blobtree::Box bounds{{-6, -6, -6}, {6, 6, 6}};
       const engine::SurfaceRequest surface{.iso = level.iso, .cell_size = 0.06, .bounds = bounds};
       const Rays rays = random_rays(seed + 5, 50, 2.5);
@@ -188,7 +188,7 @@ TEST(RayCaster, FollowsTheReferenceOnRandomScenes) {
         const Marched m = march(exact, level, ray, end, hits.cell_size);
         const std::string where =
             "nodes " + std::to_string(nodes) + ", seed " + std::to_string(seed) + ", ray " + std::to_string(i);
-        // Where the field is 0.5 within rounding, either is right.
+        // If the field is 0.5 within rounding, either side is right.
         if (std::abs(level.excess(exact.value(ray.origin))) < 1e-4) continue;
         ASSERT_EQ(hits.inside[i] != 0, m.begins_inside) << where;
         if (std::isinf(hits.distances[i])) {
@@ -199,11 +199,11 @@ TEST(RayCaster, FollowsTheReferenceOnRandomScenes) {
         ++hit;
         const double t = hits.distances[i];
         ASSERT_LE(t, m.sure_change + hits.cell_size) << where;
-        // A change that is shorter than a step of the march is one all the same.
+        // A change that is shorter than a step of the march counts, too.
         if (std::isfinite(m.first_change)) {
           ASSERT_GE(t, m.first_change - hits.cell_size / 16 - 1e-4) << where;
         }
-        // The reference changes sides there, within the tolerance and the field's own.
+        // The reference changes sides there, within the tolerance and the field's own error.
         const double room = 1e-4 * hits.cell_size + 1e-5;
         const double before = level.excess(exact.value(ray.point(t - room)));
         const double after = level.excess(exact.value(ray.point(t + room)));
@@ -247,7 +247,7 @@ TEST(RayCaster, TakesRaysFromFarAwayAndEndsThemWhereAsked) {
   EXPECT_NEAR(hits.positions[0], 1.1, 1e-5);
   EXPECT_NEAR(hits.positions[4], -0.8, 1e-5);
   EXPECT_FLOAT_EQ(hits.distances[0], 1e6 - 1.1);
-  // Where doubles along the ray are farther apart than the cells.
+  // Doubles along this ray are farther apart than the cells.
   const engine::SceneLease grain =
       resident(test_support::scene_of_nodes(R"([{"sphere": {"radius": 1e-6, "range": 1e-6}}])"));
   Rays to_grain;
@@ -307,7 +307,7 @@ TEST(SurfaceProjector, FindsTheNearestPointOfASphere) {
   while (nearest.size() < 2000) {
     const dvec3 p = random.point(-1.5, 1.5);
     const double far = length(p - centre);
-    // Within the reach, and not in the middle, where there is no gradient.
+    // The points are within the reach, and not in the middle, where there is no gradient.
     if (far > 1.49 || far < 0.65) continue;
     for (const double x : {p.x, p.y, p.z}) points.push_back(static_cast<float>(x));
     nearest.push_back(centre + (p - centre) * (1 / far));
@@ -340,7 +340,7 @@ TEST(SurfaceProjector, ReachesTheSurfaceOfRandomScenes) {
       const double iso = scene->tape().law == operators::Law::kSigned ? 0 : 0.5;
       const engine::IsoLevel level{iso, scene->tape().law};
       test_support::Random random(seed + 3);
-      // Of some scenes nothing is inside.
+      // Nothing is inside in some scenes.
       bool has_surface = false;
       for (int i = 0; i < 500; ++i) has_surface |= level.excess(exact.value(random.point(-1.5, 1.5))) > 0;
       if (!has_surface) continue;
@@ -356,7 +356,7 @@ TEST(SurfaceProjector, ReachesTheSurfaceOfRandomScenes) {
         if (!found.converged[i]) continue;
         ++converged;
         const reference::Sample s = exact.evaluate(row(found.positions, i));
-        // To first order the distance; the field's own error besides.
+        // The residual is the distance to first order; the field's own error comes on top.
         ASSERT_LE(std::abs(s.value - iso), 1.1e-4 * length(s.gradient) + 1e-4) << nodes << " nodes, seed " << seed;
       }
     }

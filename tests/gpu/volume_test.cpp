@@ -1,4 +1,5 @@
-// Operators as volumes: nodes and look-ups on the device against exact arithmetic, [G] Fig. 11, and the cache.
+// Compares operators as volumes on the device with exact arithmetic (nodes, look-ups, [G] Fig. 11), and tests the
+// cache.
 #include "operators/volume.h"
 
 #include <gtest/gtest.h>
@@ -61,8 +62,8 @@ std::vector<Float4> nodes_of(const engine::Volume& volume) {
   return nodes;
 }
 
-// Runs shaders/operator_volume_probe.comp on rows of f1, f2, t; without a volume the exact smooth blend. Partials are
-// with respect to t.
+// Runs shaders/operator_volume_probe.comp on rows of f1, f2, t. Without a volume it evaluates the exact smooth blend.
+// Partials are with respect to t.
 std::vector<Blend> look_up(const std::vector<Float4>& arguments, const engine::Volume* volume,
                            Continuation continuation = Continuation::kAboutBoundary, std::uint32_t slot = 0,
                            std::uint32_t volume_set = 1) {
@@ -106,7 +107,7 @@ double theta_of(const Float4& a) {
   return std::atan(double{a[2]});
 }
 
-// Largest error of first partials with respect to f1, f2 and t; `exact` has theta's.
+// Returns the largest error of first partials with respect to f1, f2 and t; `exact` has those by theta.
 double partial_error(const Blend& b, const Blend& exact, double t) {
   return std::max({std::abs(b.g1 - exact.g1), std::abs(b.g2 - exact.g2), std::abs(b.gt * (1 + t * t) - exact.gt)});
 }
@@ -135,7 +136,8 @@ TEST(OperatorVolume, NodesEqualExactArithmetic) {
       const std::vector<Float4> nodes = nodes_of(*volume);
       const operators::VolumeNodes exact = operators::gradient_nodes(silhouette, n);
       double worst = 0, worst_partial = 0;
-      // All of the smallest, some of the others; the last are of the layers, rows and faces at the ends.
+      // The test reads all nodes of the smallest volume and some of the others, among them nodes of the layers, rows
+      // and faces at the ends.
       for (int at = 0; at < 4096; ++at) {
         int i = at % 16, j = at / 16 % 16, k = at / 256;
         if (n > 16) {
@@ -184,7 +186,7 @@ TEST(OperatorVolume, OutdoesFigure11) {
   }
 }
 
-// An operator with a formula, homogeneous of degree 1.
+// An operator with a formula; it is homogeneous of degree 1.
 Blend analytic(double f1, double f2, double theta) {
   const double length = std::hypot(f1, f2), s = std::sin(theta), c = std::cos(theta);
   const double m = std::max(length, 1e-300);
@@ -209,7 +211,7 @@ void expect_as_reference(const operators::Operator& op, int size, const operator
     const Blend exact = operators::volume_blend(a[0], a[1], theta_of(a), size, nodes, continuation);
     worst = std::max(worst, std::abs(results[i].g - exact.g));
     worst_partial = std::max(worst_partial, partial_error(results[i], exact, a[2]));
-    // Slopes of the interpolation jump from cell to cell: a float may lie on the other side.
+    // Slopes of the interpolation jump from cell to cell, and a float may lie on the other side.
     const double scale = std::max({a[0], a[1], 1.0f});
     const auto is_near_border = [&](double x) { return std::abs(x - std::round(x)) < 1e-3; };
     if (scale > 1 || is_near_border(a[0] * (size - 1)) || is_near_border(a[1] * (size - 1)) ||
@@ -266,7 +268,7 @@ TEST(OperatorVolume, GoesOnBeyondOne) {
     const Blend exact = operators::gradient_blend(a[0], a[1], theta_of(a), {});
     worst = std::max(worst, std::abs(results[i].g - exact.g));
     sum += std::abs(results[i].g - exact.g);
-    // Wide blends only: narrow ones bend within a cell.
+    // Only wide blends are compared, because narrow ones bend within a cell.
     if (a[2] < 0.8) worst_partial = std::max(worst_partial, partial_error(results[i], exact, a[2]));
   }
   std::cout << results.size() << " pairs beyond 1: max error " << worst << ", mean "
@@ -286,7 +288,7 @@ TEST(OperatorVolume, SamplesOfAFormulaFollowIt) {
   double worst = 0, worst_partial = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Float4& a = arguments[i];
-    // The formula has a corner at the origin, and at the ends differences are one-sided.
+    // The formula has a corner at the origin, and differences are one-sided at the ends.
     const double m = std::max({a[0], a[1], 1.0f}), least = std::min(a[0], a[1]) / m;
     if (std::max(a[0], a[1]) < 0.2 || least < 0.02) continue;
     const Blend exact = analytic(a[0], a[1], theta_of(a));

@@ -1,4 +1,4 @@
-// Tier two: written kernels against the interpreter, and when there are any.
+// Compares written kernels (tier two) with the interpreter, and tests for which scenes they are made.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -41,7 +41,7 @@ std::vector<float> evaluate(const engine::ResidentScene& scene, const std::vecto
   return out;
 }
 
-// Makes the scene's kernel; false where it gets none.
+// Makes the scene's kernel. Returns false if the scene gets none.
 bool make_hot(WrittenKernels& written, const engine::ResidentScene& scene, bool with_gradient = true) {
   (void)written.find(scene, with_gradient, 1u << 30);
   written.wait();
@@ -54,7 +54,7 @@ void expect_near(const std::vector<float>& written, const std::vector<float>& in
   std::size_t same = 0;
   for (std::size_t i = 0; i < written.size(); ++i) {
     same += written[i] == interpreted[i] ? 1 : 0;
-    // Within rounding of the point's whole gradient: its components cancel.
+    // The bound is the rounding of the point's whole gradient, because its components cancel.
     const float* const whole = &interpreted[i / components * components];
     float scale = 1;
     for (std::size_t c = 0; c < components; ++c) scale = std::max(scale, std::abs(whole[c]));
@@ -128,7 +128,7 @@ TEST(WrittenKernels, AreOfStructuresThatManyPointsAreAskedOf) {
   (void)written.find(*scene, true, 1);
   written.wait();
   EXPECT_NE(written.find(*scene, true, 0), nullptr);
-  // The other layout is another kernel.
+  // The other layout has a kernel of its own.
   EXPECT_EQ(written.find(*scene, false, 0), nullptr);
 }
 
@@ -160,7 +160,7 @@ TEST(WrittenKernels, OutliveEditsOfParameters) {
               evaluate(**after, xyz, ResultLayout::kValueAndGradient, nullptr), 4, "edited");
 }
 
-// More than one submission, and a last one that is no whole number of workgroups.
+// The batch needs more than one submission, and the last one is not a whole number of workgroups.
 TEST(WrittenKernels, TakeLargeBatches) {
   WrittenKernels written(device(), {});
   const engine::SceneLease scene = resident(two_spheres(0.5));
@@ -187,7 +187,7 @@ TEST(WrittenKernels, ReadAndWriteWhereverTheArraysLie) {
     const std::vector<float> expected = evaluate(*scene, xyz, ResultLayout::kValueAndGradient, kernels_or_none);
     EXPECT_EQ(std::count(expected.begin(), expected.end(), -1), 0) << "not written";
     engine::FieldEvaluator fields(device(), kernels(), workers(), kernels_or_none);
-    // Of floats into arrays that lie at multiples of 16 bytes.
+    // The numbers are offsets of floats into arrays that lie at multiples of 16 bytes.
     for (const auto& [in, out] : {std::pair{0, 0}, {4, 4}, {1, 4}, {4, 3}, {2, 1}}) {
       std::vector<float> points(in), results(4 * kCount + 2 * kRoom, -7);
       points.insert(points.end(), xyz.begin(), xyz.end());
@@ -221,7 +221,7 @@ TEST(WrittenKernels, AreKeptOnDisk) {
   };
   EXPECT_EQ(from_disk(), 0u);
   EXPECT_EQ(from_disk(), 1u);
-  // Cut short, empty, a bit changed: compiled again, and written anew.
+  // The file is cut short, emptied, or has a changed bit. The kernel is then compiled again and written anew.
   const std::filesystem::path file = only_file(folder);
   const auto size = std::filesystem::file_size(file);
   for (const std::uintmax_t bytes : {size / 2, std::uintmax_t{5}, std::uintmax_t{0}}) {

@@ -1,4 +1,4 @@
-// A server at its limits: calls of every kind are refused at once, are told when to come again, and are served then.
+// Tests a server at its limits: it refuses calls of every kind at once, tells when to come again, and serves them then.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -25,7 +25,7 @@ v1::EvaluateGridRequest grid_of(std::uint64_t edge) {
   return request;
 }
 
-// A grid at work: far more than fits between server and client, of which one message is read.
+// Keeps a grid at work. The grid is far more than fits between server and client, and only one message of it is read.
 class OpenGrid {
  public:
   explicit OpenGrid(Peer& peer) : stream_(peer.fields().EvaluateGrid(&context_, grid_of(400))) {
@@ -49,7 +49,7 @@ grpc::Status evaluate_grid(Peer& peer, grpc::ClientContext& context) {
   return stream->Finish();
 }
 
-// Milliseconds; 0 where the server does not say when to come again.
+// Returns milliseconds, or 0 if the server does not say when to come again.
 int pushback(const grpc::ClientContext& context) {
   const auto& trailers = context.GetServerTrailingMetadata();
   const auto hint = trailers.find("grpc-retry-pushback-ms");
@@ -75,7 +75,7 @@ TEST(Admission, PointsOfAllKindsShareALimit) {
   *rays.mutable_origins() = points_tensor(std::span<const float>(xyz));
   *rays.mutable_directions() = points_tensor(std::span<const float>(std::vector<float>(xyz.size(), 1)));
   {
-    const OpenGrid open(peer);  // more than is admitted, but nothing else was there
+    const OpenGrid open(peer);  // the points are more than is admitted, but nothing else was there
     grpc::ClientContext context;
     expect_refused(evaluate_grid(peer, context), StatusCode::RESOURCE_EXHAUSTED,
                    {"64000000 points", "1000 are admitted", "--max-running-points", "try again in"});
@@ -88,7 +88,7 @@ TEST(Admission, PointsOfAllKindsShareALimit) {
     expect_refused(peer.surfaces().CastRays(&ray_context, rays, &hits), StatusCode::RESOURCE_EXHAUSTED,
                    {"--max-running-points"});
     EXPECT_GE(pushback(ray_context), 1);
-    // Evaluate has limits of its own, and what is no such work has none.
+    // Evaluate has limits of its own, and calls without such work have none.
     std::vector<float> results;
     EXPECT_TRUE(ok(peer.evaluate(inlined(ball.scene()), xyz, true, &results)));
     EXPECT_TRUE(ok(peer.put("ball", ball.scene())));

@@ -1,4 +1,4 @@
-// Requests about good scenes that are refused: status, text, and a daemon that goes on serving.
+// Tests that bad requests about good scenes are refused with status and text, and that the daemon goes on serving.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ class BadRequest : public testing::Test {
   void expect_points_refused(const v1::EvaluateRequest& request, StatusCode code, std::vector<std::string> parts) {
     v1::EvaluateResponse response;
     expect_refused(peer_.evaluate(request, &response), code, parts);
-    // In a stream the text says what was answered before.
+    // In a stream the text says how many points were answered before.
     std::vector<v1::EvaluateStreamRequest> stream(2);
     *stream[0].mutable_scene() = request.scene();
     stream[0].set_quantity(request.quantity());
@@ -238,7 +238,7 @@ TEST_F(BadRequest, BadMeshesAreRefused) {
   }
 }
 
-// The number that ends a refusal's text.
+// Returns the number that ends a refusal's text.
 double smallest_cell_of(const grpc::Status& status) {
   const std::string& text = status.error_message();
   const std::size_t at = text.find("smallest cell size that fits is ");
@@ -290,7 +290,7 @@ TEST(BadRequestOfSize, MessagesBeyondTheLimitAreRefusedAndTheConnectionLives) {
   expect_serving(daemon.address());
 }
 
-// Idle streams hold threads: more of them than are admitted are refused, and other calls go through all the while.
+// Idle streams hold threads. Streams beyond the limit are refused, and other calls go through all the while.
 TEST(Streams, AreFewerThanThreads) {
   Daemon daemon({"--max-threads", "8"});
   Peer peer(daemon.address());
@@ -319,7 +319,7 @@ TEST(Streams, AreFewerThanThreads) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_NE(status.error_message().find("6 streams are open"), std::string::npos) << status.error_message();
   EXPECT_TRUE(ok(peer.put("ball", ball.scene())));
-  // One that ends makes room.
+  // A stream that ends makes room.
   open.back()->call->WritesDone();
   EXPECT_TRUE(open.back()->call->Finish().ok());
   Stream next;

@@ -50,7 +50,7 @@ Ball::Errors Ball::errors(std::span<const float> xyz, std::span<const float> res
   for (std::size_t i = 0; i < count; ++i) {
     const float* const p = &xyz[3 * i];
     const float* const result = &results[columns * i];
-    // Not std::max, which would lose NaN.
+    // std::max would lose NaN.
     if (const double e = std::abs(result[0] - value(p)); !(e <= errors.value)) errors.value = e;
     if (columns < 4) continue;
     const std::array<double, 3> g = gradient(p);

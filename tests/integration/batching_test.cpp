@@ -1,4 +1,4 @@
-// Many requests at once: small ones join and pass the large, and a full queue says when to come back.
+// Tests many requests at once: small ones are joined and pass large ones, and a full queue says when to come back.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -33,7 +33,7 @@ TEST(Batching, EachOfManyClientsGetsItsOwnBits) {
   Peer peer(address);
   const Ball ball;
   ASSERT_TRUE(ok(peer.put("ball", ball.scene())));
-  // A long tape, of which each joined batch is sorted in its own way.
+  // The tape is long, and each joined batch is sorted in its own way.
   ASSERT_TRUE(ok(peer.put("blend", test_support::random_scene(12, {.nodes = 60}))));
   struct Client {
     std::string scene;
@@ -71,7 +71,7 @@ TEST(Batching, EachOfManyClientsGetsItsOwnBits) {
   EXPECT_TRUE(ok(peer.remove("blend")));
 }
 
-// Some seconds of work, of which nothing can be culled; ended by the test.
+// A call of some seconds of work, of which nothing can be culled. The test ends it.
 class LargeCall {
  public:
   explicit LargeCall(const std::string& address) : peer_(address) {
@@ -92,7 +92,7 @@ class LargeCall {
       status_ = peer_.fields().Evaluate(&context_, request, &response);
       is_done_ = true;
     });
-    // Until its points are on the device.
+    // The call has begun when its points are on the device.
     while (peer_.info().device_bytes() < before + xyz.size() * sizeof(float) && !is_done_) std::this_thread::yield();
   }
   ~LargeCall() { cancel(); }
@@ -116,7 +116,7 @@ TEST(Batching, ASmallCallIsAnsweredWhileALargeOneRuns) {
   const Ball ball;
   const std::vector<float> xyz = points_around(ball, 1, 64);
   std::vector<float> results;
-  ASSERT_TRUE(ok(peer.evaluate(inlined(ball.scene()), xyz, true, &results)));  // the kernel first
+  ASSERT_TRUE(ok(peer.evaluate(inlined(ball.scene()), xyz, true, &results)));  // compiles the kernel first
   LargeCall large(shared_daemon().address());
   for (int i = 0; i < 3; ++i) {
     ASSERT_TRUE(ok(peer.evaluate(inlined(ball.scene()), xyz, true, &results)));
@@ -140,7 +140,7 @@ TEST(Batching, AFullQueueRefusesAtOnceAndSaysWhenToTryAgain) {
   const auto hint = trailers.find("grpc-retry-pushback-ms");
   ASSERT_NE(hint, trailers.end());
   EXPECT_GE(std::stoi(std::string(hint->second.data(), hint->second.size())), 1);
-  // A stream waits instead.
+  // A stream waits instead of being refused.
   v1::EvaluateStreamRequest message;
   *message.mutable_scene() = inlined(ball.scene());
   *message.mutable_points() = points_tensor(xyz);

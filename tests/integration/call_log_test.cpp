@@ -1,4 +1,4 @@
-// With --log-level debug the log has a line for each call.
+// Tests that the log has a line for each call with --log-level debug.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -15,7 +15,7 @@ namespace {
 const std::string kTimes =
     R"(: queue (\d+\.\d) ms, kernels (\d+\.\d) ms, device (\d+\.\d) ms, transfer (\d+\.\d) ms, total (\d+\.\d) ms, )";
 
-// Checks that exactly `count` lines of the log are about calls, and that each matches `pattern`.
+// Checks that exactly `count` lines of the log are about a call that matches `pattern`.
 void expect_calls(const std::string& log, const std::string& pattern, std::ptrdiff_t count = 1) {
   const std::regex line("debug call \\d+ " + pattern);
   EXPECT_EQ(std::distance(std::sregex_iterator(log.begin(), log.end(), line), {}), count) << pattern << " in\n" << log;
@@ -54,7 +54,7 @@ TEST(CallLog, HasALineForEachCallOfTheDebugLevel) {
   expect_calls(log, "FieldService/EvaluateStream scene=ball points=16" + kTimes + "OK\n");
   expect_calls(log, "MeshService/Mesh scene=ball cells=[1-9]\\d*" + kTimes + "OK\n");
   expect_calls(log, "FieldService/EvaluateGrid scene=ball points=60" + kTimes + "OK\n");
-  // A call has one line, whatever is in the name.
+  // A call has one line, whatever characters the name holds.
   expect_calls(log, R"(FieldService/Evaluate scene=none\?of\?\[31mthese)" + kTimes + "NOT_FOUND: [^\n]*\n");
   // The mesh is the first to need its kernels, so it has waited for them, and the device has worked for it.
   std::smatch mesh;

@@ -1,4 +1,4 @@
-// Clients that give up or go away: the work stops, and what it held is returned.
+// Tests that the work stops, and what it held is returned, when clients give up or go away.
 #include <gtest/gtest.h>
 #include <isofield/client.h>
 #include <signal.h>
@@ -16,7 +16,7 @@
 namespace isofield::integration_test {
 namespace {
 
-// Nearly as many cells as are admitted: some seconds of work.
+// The mesh has nearly as many cells as are admitted, which is some seconds of work.
 constexpr double kTinyCell = 0.0022;
 
 class Cancel : public testing::Test {
@@ -26,7 +26,7 @@ class Cancel : public testing::Test {
     ASSERT_TRUE(ok(peer_.put("ball", ball_.scene())));
   }
   void TearDown() override {
-    // Work that goes on holds the scene still, if nothing else.
+    // Work that goes on still holds the scene.
     EXPECT_TRUE(ok(peer_.remove("ball")));
     wait_until([&](std::uint64_t bytes) { return bytes == bytes_before_; });
     expect_serving(shared_daemon().address());
@@ -34,7 +34,7 @@ class Cancel : public testing::Test {
     EXPECT_TRUE(ok(peer_.mesh(mesh_request(inlined(ball_.scene()), 0.05), &mesh)));
   }
 
-  // The limit is for a test that would hang otherwise.
+  // The limit ends a test that would hang otherwise.
   void wait_until(const std::function<bool(std::uint64_t bytes)>& reached) {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     for (std::uint64_t bytes = 0; !reached(bytes = peer_.info().device_bytes());) {
@@ -93,7 +93,7 @@ TEST_F(Cancel, ByAKilledClientStopsTheWork) {
 }
 
 TEST_F(Cancel, OfTheSearchForCellsStopsTheWork) {
-  // Nearly as many cells as are admitted: no estimate refuses them, and to find them takes long.
+  // The mesh has nearly as many cells as are admitted. No estimate refuses them, and finding them takes long.
   v1::Scene scene;
   v1::Node all;
   for (int i = 0; i < 30'000; ++i) {

@@ -1,4 +1,4 @@
-// SceneService: scenes by name and version, conditions, and edits of parameters.
+// Tests SceneService: scenes by name and version, conditions, and edits of parameters.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -21,7 +21,7 @@ constexpr char kTwoBalls[] = R"(
 
 class Catalog : public testing::Test {
  protected:
-  // Leaves the catalog as it was found.
+  // Removes all scenes, so that the next test finds an empty catalog.
   void TearDown() override {
     for (const v1::SceneSummary& summary : peer_.list()) EXPECT_TRUE(ok(peer_.remove(summary.name())));
     EXPECT_TRUE(shared_daemon().is_running());

@@ -1,4 +1,4 @@
-// The command line against the real daemon: from files to files, exit codes, and nothing half-written.
+// Tests the command line against the real daemon: from files to files, exit codes, and no half-written files.
 #include <absl/strings/numbers.h>
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_format.h>
@@ -169,7 +169,7 @@ TEST_F(Command, KilledWhileItWritesItLeavesTheOldFile) {
   const std::string before = directory_.listing();
   for (int round = 0; round < 3; ++round) {
     Process process(command({"mesh", path("ball.json"), "--cell", "0.005", "-o", path("m.stl")}));
-    // Its file appears when it begins to write.
+    // The output file appears when the process begins to write.
     while (process.is_running() && directory_.listing() == before) std::this_thread::yield();
     process.signal(SIGKILL);
     const int code = process.wait();

@@ -21,10 +21,10 @@ class DaemonEnvironment : public testing::Environment {
   void TearDown() override { the_daemon.reset(); }
 };
 
-// Owned by GoogleTest.
+// GoogleTest owns the environment.
 [[maybe_unused]] testing::Environment* const environment = testing::AddGlobalTestEnvironment(new DaemonEnvironment);
 
-// Machines without the layer can run the tests all the same, but not by default.
+// Machines without the validation layer can run the tests, too, but not by default.
 bool with_validation() {
   return std::getenv("ISOFIELD_TESTS_WITHOUT_VALIDATION") == nullptr;
 }

@@ -1,4 +1,4 @@
-// The real isofieldd as a child process.
+// Runs the real isofieldd as a child process of the tests.
 #pragma once
 
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace isofield::integration_test {
 
-// Serves once constructed; the tests end where it does not start. It runs under the Vulkan validation layer, and its
-// end fails the test when it is not orderly or the layer has complained.
+// Owns the process. It serves once it is constructed; if it does not start, the tests end. It runs under the Vulkan
+// validation layer. The test fails if the process does not end in an orderly way, or if the layer has complained.
 class Daemon {
  public:
-  // Listens on a unix socket in a directory of its own, or on `listen` where that is stated.
+  // Listens at a unix socket in a directory of its own, or at `listen` if that is not empty.
   explicit Daemon(const std::vector<std::string>& flags = {}, const std::string& listen = "");
   ~Daemon();
 
-  // For clients: with the real port where it was to choose one.
+  // Returns the address for clients, with the real port if the daemon was to choose one.
   const std::string& address() const { return address_; }
   bool is_running() { return process_.is_running(); }
   Process& process() { return process_; }
-  // Asks it to stop with SIGTERM, waits, and checks how it ended; once.
+  // Asks the daemon to stop with SIGTERM, waits, and checks how it ended. Further calls do nothing.
   void stop();
-  // The same where it has been asked already: a second signal would end it at once.
+  // Does the same if the daemon has been asked already, because a second signal would end it at once.
   void expect_orderly_end();
-  // Ends it with SIGKILL, as a machine's failure would.
+  // Ends the daemon with SIGKILL, as a machine's failure would.
   void kill();
 
  private:
@@ -37,10 +37,10 @@ class Daemon {
   Process process_;
 };
 
-// One for all tests of the process that need no flags of their own.
+// Returns the daemon of all tests of the process that need no flags of their own. The first call starts it.
 Daemon& shared_daemon();
 
-// `isofieldd` with these flags, as it stands on a command line.
+// Returns the command line that runs `isofieldd` with these flags.
 std::vector<std::string> daemon_command(const std::vector<std::string>& flags);
 
 }  // namespace isofield::integration_test

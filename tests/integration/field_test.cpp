@@ -1,4 +1,4 @@
-// FieldService: batches, streams of any length and grids answer right.
+// Tests that FieldService answers batches, streams of any length and grids correctly.
 #include <gtest/gtest.h>
 #include <isofield/client.h>
 
@@ -94,7 +94,7 @@ TEST(Field, StreamsAnswerEveryMessageWithPointsInOrder) {
   for (const std::size_t count : {3u, 0u, 70'000u, 1u}) {
     sent.push_back(points_around(ball, count, count));
     *requests.emplace_back().mutable_points() = points_tensor(std::span<const float>(sent.back()));
-    requests.emplace_back();  // nothing in it: no answer
+    requests.emplace_back();  // an empty message has no answer
   }
   std::vector<v1::EvaluateResponse> responses;
   ASSERT_TRUE(ok(peer.evaluate_stream(requests, &responses)));
@@ -115,7 +115,7 @@ TEST(Field, BlendsFollowTheReferenceHoweverTheyAreAsked) {
   test_support::Random random(5);
   std::vector<float> xyz;
   for (int i = 0; i < 3 * 65'536; ++i) xyz.push_back(static_cast<float>(random.number(-2.5, 2.5)));
-  // In one message by the stubs, and streamed by the client.
+  // The points go in one message by the stubs, and streamed by the client.
   std::vector<float> results;
   ASSERT_TRUE(ok(peer.evaluate(inlined(scene), xyz, true, &results)));
   const auto streamed = client->evaluate(inline_scene(scene), xyz, true);
@@ -146,7 +146,7 @@ TEST(Field, BlendsFollowTheReferenceHoweverTheyAreAsked) {
 TEST(Field, GridsAreTheSameAsTheirPoints) {
   Peer peer(shared_daemon().address());
   const v1::Scene scene = test_support::random_scene(8, {.nodes = 60});
-  // Several slabs, and numbers exact in float32.
+  // The grid has several slabs, and its numbers are exact in float32.
   const std::array<std::uint64_t, 3> counts{130, 121, 50};
   const std::array<float, 3> origin{-2.125f, -1.875f, -2.25f}, spacing{0.03125f, 0.03125f, 0.09375f};
   v1::EvaluateGridRequest request;
@@ -199,7 +199,7 @@ TEST(Field, NoMessageOfAGridIsLargerThanAClientTakes) {
   auto client = Client::connect(shared_daemon().address());
   ASSERT_TRUE(client.ok());
   const Ball ball;
-  // Layers of as many points as one message may hold.
+  // Each layer has as many points as one message may hold.
   const auto grid = client->evaluate_grid(inline_scene(ball.scene()), {-1.5, -2, -0.875},
                                           {0.0029296875, 0.0029296875, 0.5}, {1024, 1024, 5}, true);
   ASSERT_TRUE(grid.ok()) << grid.status();

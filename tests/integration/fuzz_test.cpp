@@ -1,4 +1,5 @@
-// Scenes that were damaged at random: accepted or refused, never a crash, and finite where accepted.
+// Tests scenes that were damaged at random. They are accepted or refused, never crash the daemon, and are finite if
+// accepted.
 #include <google/protobuf/stubs/logging.h>
 #include <gtest/gtest.h>
 
@@ -77,14 +78,14 @@ void damage(Message& message, Random& random) {
   }
 }
 
-// Half of them hold every kind of operator.
+// Half of the scenes hold every kind of operator that random scenes have.
 v1::Scene seed_scene(int i) {
   return test_support::random_scene(i, {.nodes = i % 2 ? 45 : 12});
 }
 
 class Fuzz : public testing::Test {
  protected:
-  // Puts the scene; evaluates it where it is accepted.
+  // Puts the scene, and evaluates it if it is accepted.
   void offer(const v1::Scene& scene, Random& random) {
     const grpc::Status status = peer_.put("fuzz", scene);
     if (!status.ok()) {
@@ -111,7 +112,7 @@ class Fuzz : public testing::Test {
     expect_serving(shared_daemon().address());
   }
 
-  // Few, because every new set of operators is a kernel to compile.
+  // There are few scenes, because every new set of operators is a kernel to compile.
   static constexpr int kScenes = 6;
 
   Peer peer_{shared_daemon().address()};

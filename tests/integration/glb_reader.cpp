@@ -24,7 +24,7 @@ void read_accessor(const tinygltf::Model& model, int index, int component_type, 
   std::memcpy(out.data(), data.data() + begin, bytes);
 }
 
-// Viewers place the camera by these.
+// Viewers place the camera by these bounds.
 void check_bounds(const tinygltf::Accessor& accessor, const std::vector<float>& positions) {
   ASSERT_EQ(accessor.minValues.size(), 3u);
   ASSERT_EQ(accessor.maxValues.size(), 3u);

@@ -1,4 +1,4 @@
-// A GLB file read as a viewer does, with nothing of what wrote it.
+// Reads a GLB file as a viewer does, without any code of its writer.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@ struct GlbMesh {
   std::vector<std::uint32_t> triangles;
 };
 
-// Fails the test, and returns what it has, where the file is no glTF 2.0 binary with at most one mesh of triangles.
+// Reads a glTF 2.0 binary with at most one mesh of triangles. Any other file fails the test; the result then holds what
+// could be read.
 GlbMesh read_glb(const std::string& path);
 
 }  // namespace isofield::integration_test

@@ -1,8 +1,7 @@
 """Asks a daemon for health, services, fields, scenes and errors with grpcurl, which knows only what reflection tells.
 
 Usage: grpcurl_test.py ISOFIELDD FOLDER
-Where grpcurl is not installed, it is built in FOLDER by go; without go, or where its modules are out of reach, the test
-is skipped.
+If grpcurl is not installed, go builds it in FOLDER. The test is skipped without go, or if the modules are out of reach.
 """
 
 import base64
@@ -50,7 +49,7 @@ def find_grpcurl(folder):
 
 
 def snake_case(answer):
-    """An answer with the fields' names of the .proto files, which only newer versions print."""
+    """Returns an answer with the fields' names of the .proto files, which only newer versions of grpcurl print."""
     if isinstance(answer, list):
         return [snake_case(part) for part in answer]
     if not isinstance(answer, dict):
@@ -73,7 +72,7 @@ class Grpcurl:
         return run.stdout
 
     def call(self, method, data=None):
-        """The answers; a stream may have several."""
+        """Returns the answers; a stream may have several."""
         run = self.run(method, data=data)
         assert run.returncode == 0, f"{method}: {run.stderr}"
         answers, text = [], run.stdout.strip()

@@ -19,12 +19,14 @@ const std::string kEscaped = "'one\\ntwo\\x1b[31m\\r'";
 
 class HostileName : public testing::Test {
  protected:
-  // Sends every request that has a name, with one that does not exist. `name` is the form in which the status shows it.
+  // Checks the status, and that its text shows the name in the form `shown`, is short, and has no control characters.
   void expect_shown(const grpc::Status& status, StatusCode code, const std::string& shown) {
     expect_refused(status, code, {shown});
     EXPECT_LE(status.error_message().size(), 2051u);
     for (const char c : status.error_message()) EXPECT_GE(static_cast<unsigned char>(c), 0x20);
   }
+  // Sends every kind of request that has a name, with one that does not exist. `shown` is the form in which the status
+  // shows it.
   void expect_names_shown(const std::string& name, const std::string& shown) {
     Peer peer(shared_daemon().address(), Peer::Messages::kByDefault);
     const float origin[] = {0, 0, 0};

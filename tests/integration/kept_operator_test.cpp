@@ -1,4 +1,5 @@
-// Scenes that keep the operators that they were put with, openings from picked points, and the command line of both.
+// Tests scenes that keep the operators with which they were put, openings from picked points, and the command line of
+// both.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +47,7 @@ TEST_F(KeptOperator, ScenesKeepTheOperatorsThatTheyWerePutWith) {
   expect_refused(peer_.evaluate(inlined(scene), std::vector<float>{0, 0, 0}, false, nullptr),
                  StatusCode::INVALID_ARGUMENT, {"'fold'"});
 
-  // An edit carries the operators on.
+  // An edit keeps the operators.
   v1::EditParametersRequest edit;
   edit.set_name("scene");
   edit.add_edits()->set_node("left");
@@ -59,7 +60,7 @@ TEST_F(KeptOperator, ScenesKeepTheOperatorsThatTheyWerePutWith) {
   scene.mutable_nodes(0)->mutable_sphere()->set_radius(0.7);
   EXPECT_TRUE(same_bits(values(inlined(scene)), edited));
 
-  // Putting the scene again takes up the changed one.
+  // Putting the scene again takes the changed operator.
   ASSERT_TRUE(ok(put("fold", bulge(0))));
   scene.mutable_nodes(0)->mutable_sphere()->set_radius(0.6);
   ASSERT_TRUE(ok(peer_.put("scene", scene)));
@@ -80,7 +81,7 @@ TEST_F(KeptOperator, PicksTheOpeningOfAPoint) {
   EXPECT_NEAR(picked.f1(), 0.5, 1e-5);
   EXPECT_NEAR(picked.f2(), f2[0], 1e-6);
   EXPECT_NEAR(picked.theta(), std::atan(f2[0] / 0.5) * 180 / std::numbers::pi, 1e-3);
-  // From the centres (-0.4, 0) and (0.4, 0) to the point: straight up, and up to the left.
+  // The directions from the centres (-0.4, 0) and (0.4, 0) to the point are straight up, and up to the left.
   EXPECT_NEAR(picked.alpha(), std::atan2(0.8, 0.6) * 180 / std::numbers::pi, 1e-2);
   v1::PickOpeningResponse again;
   ASSERT_TRUE(ok(pick(inlined(scene), "#2", point, &again)));

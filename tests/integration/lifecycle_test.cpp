@@ -1,4 +1,4 @@
-// The daemon as an administrator sees it: addresses, options, signals, restarts.
+// Tests the daemon as an administrator sees it: addresses, options, signals, restarts.
 #include <gtest/gtest.h>
 #include <isofield/client.h>
 #include <signal.h>
@@ -201,7 +201,7 @@ TEST(Lifecycle, WrongUsageIsTold) {
   }
 }
 
-// The daemon refuses these with exit code 2 before anything is started, in words that name the place.
+// The daemon refuses these flags with exit code 2 before anything is started, and its text names the place.
 void expect_wrong(const std::vector<std::string>& flags, const std::vector<std::string>& parts) {
   const Outcome outcome = run(daemon_command(flags));
   EXPECT_EQ(outcome.exit_code, 2) << parts[0];

@@ -1,5 +1,5 @@
-// The reference evaluator for scenes of thousands of pieces: at each point it evaluates the pieces near it alone, which
-// gives the same value, because every operator has g(f, 0) = f and a piece is 0 beyond its range.
+// The reference evaluator for scenes of thousands of pieces. At each point it evaluates only the pieces near it. The
+// value is the same, because every operator has g(f, 0) = f and a piece is 0 beyond its range.
 #pragma once
 
 #include <array>
@@ -14,11 +14,12 @@
 
 namespace isofield::integration_test {
 
-// Of scenes as the importers make them: spheres and segments, joined by the one operator that is the last node. One
-// thread.
+// Evaluates scenes as the importers make them: spheres and segments, joined by one operator, which is the last node.
+// The scene must outlive it. Only one thread may use it.
 class LocalReference {
  public:
-  // `cell`: edge length of the cells whose points share a part of the scene; model units, about a piece's size.
+  // `cell` is the edge length, in model units, of the cells whose points share a part of the scene. It should be about
+  // a piece's size.
   LocalReference(const v1::Scene& scene, double cell);
 
   reference::Sample evaluate(const blobtree::dvec3& p);
@@ -30,7 +31,7 @@ class LocalReference {
   const v1::Scene& scene_;
   const double cell_;
   std::vector<std::array<double, 6>> supports_;                  // low and high corners
-  std::map<Cell, std::unique_ptr<reference::Evaluator>> parts_;  // null: nothing is near
+  std::map<Cell, std::unique_ptr<reference::Evaluator>> parts_;  // null if nothing is near
 };
 
 }  // namespace isofield::integration_test

@@ -1,4 +1,4 @@
-// Meshes by bricks over gRPC: parts that join to the whole, and meshes that follow the edits of their scene.
+// Tests meshes by bricks over gRPC: parts that join to the whole, and meshes that follow the edits of their scene.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 #include <isofield/client.h>
@@ -21,7 +21,7 @@ namespace {
 
 using grpc::StatusCode;
 
-// The address that MeshBricksClient tracks at, where it is the process that is to die.
+// In the process that is to die, this variable holds the address at which MeshBricksClient tracks meshes.
 constexpr char kServerVariable[] = "ISOFIELD_TRACKED_SERVER";
 
 v1::ParameterEdit edit_of(const std::string& node, const std::string& field, const std::vector<double>& values) {
@@ -32,7 +32,7 @@ v1::ParameterEdit edit_of(const std::string& node, const std::string& field, con
   return edit;
 }
 
-// Spheres that lie densely in [-1, 1]^3, blended.
+// Makes a blend of spheres that lie densely in [-1, 1]^3.
 v1::Scene balls(int count) {
   test_support::Random random(7);
   v1::Scene scene;
@@ -48,7 +48,7 @@ v1::Scene balls(int count) {
   return scene;
 }
 
-// Bit for bit.
+// Compares the meshes bit for bit.
 void expect_same(const BrickMesh& bricks, const ReceivedMesh& mesh) {
   const auto joined = bricks.join();
   ASSERT_TRUE(joined.ok()) << joined.status();
@@ -59,7 +59,7 @@ void expect_same(const BrickMesh& bricks, const ReceivedMesh& mesh) {
 
 class MeshBricks : public testing::Test {
  protected:
-  // What a stream of these messages ends with.
+  // Sends these messages in one stream and returns the status that ends it.
   grpc::Status track(const std::vector<v1::TrackMeshRequest>& requests) {
     grpc::ClientContext context;
     const auto stream = peer_.meshes().TrackMesh(&context);
@@ -213,19 +213,19 @@ TEST_F(MeshBricks, ATrackedMeshFollowsOthers) {
   EXPECT_EQ(tracked->changes().bricks_put + tracked->changes().bricks_removed, 0u);
   expect_same(tracked->bricks(), peer_.mesh(request));
 
-  // Another's edit and one's own in one answer.
+  // One answer holds another client's edit and one's own.
   edit.clear_edits();
   *edit.add_edits() = edit_of("#8", "radius", {0.25});
   ASSERT_TRUE(ok(peer_.edit(edit)));
   ASSERT_TRUE(tracked->edit({edit_of("#9", "radius", {0.25})}).ok());
   expect_same(tracked->bricks(), peer_.mesh(request));
 
-  // Another scene of that name.
+  // The name now belongs to another scene.
   ASSERT_TRUE(ok(peer_.put("tracked", Ball().scene())));
   ASSERT_TRUE(tracked->refresh().ok());
   expect_same(tracked->bricks(), peer_.mesh(request));
 
-  // A scene that is gone ends it, and the status stays.
+  // A scene that is gone ends the stream, and the status stays.
   EXPECT_TRUE(ok(peer_.remove("tracked")));
   EXPECT_EQ(tracked->refresh().status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(tracked->refresh().status().code(), absl::StatusCode::kNotFound);
@@ -278,7 +278,7 @@ TEST_F(MeshBricks, WhatIsWrongWithAStreamIsSaid) {
   EXPECT_TRUE(ok(track({begin, edit, refresh})));
   EXPECT_TRUE(ok(track({})));
 
-  // By the client: an edit that is refused ends the stream, the one before it stays.
+  // In the client library, a refused edit ends the stream, and the edit before it stays.
   auto tracked = client_.track_mesh(begin.begin());
   ASSERT_TRUE(tracked.ok()) << tracked.status();
   ASSERT_TRUE(tracked->edit({edit_of("#0", "radius", {0.75})}).ok());
@@ -292,7 +292,7 @@ TEST_F(MeshBricks, WhatIsWrongWithAStreamIsSaid) {
   EXPECT_TRUE(ok(peer_.remove("ball")));
 }
 
-// A daemon that admits two tracked meshes.
+// The daemon admits two tracked meshes.
 class MeshBricksLimit : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(client_.put_scene("ball", Ball().scene()).ok()); }
@@ -300,7 +300,7 @@ class MeshBricksLimit : public testing::Test {
     expect_both_free();
     expect_serving(daemon_.address());
   }
-  // The daemon notices in its own time that a client has gone; the limit is for a test that would hang otherwise.
+  // The daemon takes some time to notice that a client has gone. The limit ends a test that would hang otherwise.
   void expect_both_free() {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     absl::Status status;
@@ -330,7 +330,7 @@ TEST_F(MeshBricksLimit, CancelledStreamsAreFree) {
   for (int i = 0; i < 10; ++i) {
     expect_both_free();
     auto tracked = client_.track_mesh(request_);
-    if (!tracked.ok()) continue;  // those of expect_both_free end a moment later
+    if (!tracked.ok()) continue;  // the streams of expect_both_free() end a moment later
     tracked->cancel();
     EXPECT_EQ(tracked->refresh().status().code(), absl::StatusCode::kCancelled);
   }
@@ -342,7 +342,7 @@ TEST_F(MeshBricksLimit, AStreamCancelledWhileItsMeshIsMadeIsFree) {
   grpc::ClientContext context;
   const auto stream = peer.meshes().TrackMesh(&context);
   v1::TrackMeshRequest begin;
-  // Nearly as many cells as are admitted: some seconds of work.
+  // The mesh has nearly as many cells as are admitted, which is some seconds of work.
   *begin.mutable_begin() = mesh_request(named("ball"), 0.0022);
   ASSERT_TRUE(stream->Write(begin));
   const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
@@ -362,7 +362,7 @@ TEST_F(MeshBricksLimit, TheStreamsOfAKilledClientAreFree) {
   EXPECT_EQ(client.wait(), 128 + SIGKILL);
 }
 
-// Another process, not a test: it holds two tracked meshes and waits for its end.
+// This is not a test but another process. It holds two tracked meshes and waits for its end.
 TEST(MeshBricksClient, DISABLED_TracksUntilItIsKilled) {
   const char* const server = std::getenv(kServerVariable);
   if (!server) GTEST_SKIP() << "started by MeshBricksLimit.TheStreamsOfAKilledClientAreFree";

@@ -1,4 +1,4 @@
-// MeshService: what a request may state, determinism, and a cost that follows the surface.
+// Tests MeshService: what a request may state, determinism, and a cost that follows the surface.
 #include <gtest/gtest.h>
 #include <isofield/client.h>
 
@@ -62,7 +62,7 @@ TEST_F(Mesh, OfTheSameRequestIsTheSameBytes) {
   EXPECT_EQ(first.positions, second.positions);
   EXPECT_EQ(first.normals, second.normals);
   EXPECT_EQ(first.summary.cells(), second.summary.cells());
-  // Another daemon, other scenes before it: still the same.
+  // Another daemon, with other scenes before it, makes the same mesh.
   Daemon daemon;
   Peer other(daemon.address());
   ReceivedMesh third;
@@ -166,7 +166,7 @@ TEST_F(Mesh, IsSimplifiedWithinTheError) {
       for (int a = 0; a < 3; ++a) middle[a] += received.positions[3 * std::size_t{received.triangles[c]} + a] / 3.0;
     }
     const double r = std::hypot(middle[0] - ball_.center[0], middle[1] - ball_.center[1], middle[2] - ball_.center[2]);
-    // And how far the lattice's own triangles lie off.
+    // The bound includes how far the lattice's own triangles lie off.
     EXPECT_NEAR(r, ball_.radius, 1.2 * 0.004 + 0.04 * 0.04 / ball_.radius);
   }
   EXPECT_EQ(peer_.mesh(request).positions, received.positions);
@@ -197,7 +197,7 @@ TEST_F(Mesh, OfNothingIsEmpty) {
   EXPECT_TRUE(peer_.mesh(request).triangles.empty()) << "with a cell size of the server's choice";
 }
 
-// A hollow ball with a smaller one inside, and another beside it.
+// Makes a hollow ball with a smaller one inside, and another ball beside it.
 v1::Scene hollow_scene() {
   return test_support::scene_of_nodes(R"(
     {"name": "outer", "sphere": {"radius": 1, "range": 0.2}},
@@ -241,7 +241,8 @@ TEST_F(Mesh, CountsItsBodiesAndVoidsAndLeavesThemOut) {
 }
 
 TEST_F(Mesh, TellsTheNormalsOfCreases) {
-  // Its sides lie between the lattice's planes: where an edge runs along a cell's edge, some vertices are cut off.
+  // The box's sides lie between the lattice's planes. If an edge ran along a cell's edge, some vertices would be cut
+  // off.
   const v1::Scene scene = test_support::scene_of_nodes(R"(
     {"box": {"center": [0, 0, 0], "half_size": [1.03, 0.77, 0.61], "range": 0.5}})");
   auto client = Client::connect(shared_daemon().address());
@@ -256,7 +257,7 @@ TEST_F(Mesh, TellsTheNormalsOfCreases) {
     const auto mesh = client->mesh(request);
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     const auto& [vertices, normals, corners] = mesh->creases;
-    // Two wedges along the edges, three at the corners.
+    // There are two wedges along the edges and three at the corners.
     EXPECT_GE(vertices.size(), error > 0 ? 24u : 380u);
     std::vector<float> of_corners;
     for (const std::uint32_t vertex : mesh->triangles) {
@@ -301,7 +302,7 @@ TEST_F(Mesh, SaysWhichPrimitiveIsTooThinForItsCells) {
   EXPECT_TRUE(none.triangles.empty());
   EXPECT_EQ(none.summary.bodies(), 0u);
   EXPECT_EQ(none.summary.too_thin().primitives(), 2u);
-  // By default the server's cells follow it.
+  // The server's own cells follow the thin primitive by default.
   v1::MeshRequest automatic;
   *automatic.mutable_scene() = inlined(scene);
   const v1::MeshSummary summary = peer_.mesh(automatic).summary;
@@ -327,7 +328,7 @@ TEST(MeshKernels, AreSaidToBeCompiledByTheFirstMeshOfAMixAlone) {
 }
 
 TEST_F(Mesh, CostFollowsTheSurface) {
-  // Points that are small against their box; the cells that the server looks at say what they cost.
+  // The points are small against their box. The number of cells that the server looks at says what they cost.
   const auto cells_of_points = [&](int count) {
     test_support::Random random(11);
     v1::Scene scene;

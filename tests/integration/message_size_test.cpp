@@ -29,7 +29,7 @@ class MessageSize : public testing::Test {
     for (const std::uint64_t n : counts) request.add_spacing(3.5 / static_cast<double>(n));
     return request;
   }
-  // The joined answer to one message of a stream, and the size of the largest message in it.
+  // Returns the joined answer to one message of a stream, and the size of the largest message in it.
   std::vector<float> streamed(Peer& peer, const v1::EvaluateStreamRequest& request, std::uint64_t* largest,
                               std::size_t* messages) {
     std::vector<v1::EvaluateResponse> responses;
@@ -280,8 +280,8 @@ TEST_F(MessageSize, ScenesAreListedFromANameOn) {
   for (const char* name : {"a", "b", "c"}) EXPECT_TRUE(ok(peer_.remove(name)));
 }
 
-// Descriptions make lists of operators long: a summary has the beginning of one, and a list that is longer than a
-// message goes on where it is asked for again.
+// Descriptions make lists of operators long. A summary has only the beginning of a description, and a list that is
+// longer than a message goes on where it is asked for again.
 TEST_F(MessageSize, LongListsOfOperatorsComeInPages) {
   Daemon daemon;
   Peer peer(daemon.address(), Peer::Messages::kByDefault);

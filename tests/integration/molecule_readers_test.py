@@ -1,10 +1,10 @@
 """Imports molecules with the command line and compares every atom, its place and the radius of its element, with what
-gemmi (PDB, mmCIF) and ASE (XYZ) read from the same files. Files that no reader has right are compared with the whole
-file that they were made of. Prints a line for each comparison.
+gemmi (PDB, mmCIF) and ASE (XYZ) read from the same files. Files that no reader reads right are compared with
+the whole file that they were made of. Prints a line for each comparison.
 
 Usage: molecule_readers_test.py ISOFIELD SHARED MOLECULES READERS
 SHARED ($ISOFIELD_SHARED in its place, if that is set) is the folder with the files of others, MOLECULES the one with
-the project's own. READERS is a folder for a virtual environment with gemmi and ase; it is made when it is not there.
+the project's own. READERS is a folder for a virtual environment with gemmi and ase; it is made if it does not exist.
 """
 
 import collections
@@ -43,7 +43,7 @@ print("\\n" + json.dumps([read(*wanted) for wanted in json.load(sys.stdin)]))
 
 
 def changed(path, name, change, folder):
-    """The file with its atoms' lines changed."""
+    """Writes a copy of the file with the lines of its atoms changed, and returns its path."""
     made = folder / f"{path.stem}_{name}.pdb"
     lines = path.read_text().splitlines()
     made.write_text("".join((change(line) if line[:6] in ("ATOM  ", "HETATM") else line) + "\n" for line in lines))
@@ -77,7 +77,7 @@ def main():
         folder = pathlib.Path(name)
         whole = data / "4hhb.pdb"
         odd = data / "odd"
-        # What is imported, its options, the reader, the file that it reads, its frame and assembly.
+        # Each row holds the imported file, its options, the reader, the file that it reads, its frame and assembly.
         wanted = [
             (whole, [], "gemmi", whole, 1, ""),
             (changed(whole, "cut_77", lambda l: l[:76], folder), [], "gemmi", whole, 1, ""),

@@ -1,10 +1,10 @@
-"""Meshes every neuron of shared/data at default options: as many bodies as the file has trees, or a warning that names
-the primitive that is too thin for the cells; slivers, which the summary counts by themselves, are warned of in the same
-way. Prints a table with the seconds and the daemon's peak memory of each.
+"""Meshes every neuron of shared/data at default options. Each mesh must have as many bodies as the file has trees, or a
+warning must name the primitive that is too thin for the cells. Slivers, which the summary counts by themselves, are
+warned of in the same way. Prints a table with the seconds and the daemon's peak memory of each.
 
 Usage: neuron_bodies_test.py ISOFIELDD ISOFIELD SHARED READERS
 SHARED ($ISOFIELD_SHARED in its place, if that is set) is the folder with the files. READERS is a folder for a virtual
-environment with navis, which counts the trees; it is made when it is not there. Where navis cannot be installed, or does
+environment with navis, which counts the trees; it is made if it does not exist. If navis cannot be installed, or does
 not read a file, the roots are counted here, and the table says so.
 """
 
@@ -22,7 +22,8 @@ from readers import loud, readers_python
 SKIPPED = 77
 UNCOUNTED = "THE TREES ARE COUNTED BY THIS TEST ALONE"
 
-# Prints an object: by file, the trees that navis finds; files that it does not read are left out.
+# This program prints an object with the number of trees that navis finds in each file. It leaves out files that navis
+# does not read.
 COUNT_TREES = """
 import json, logging, sys, warnings
 warnings.filterwarnings("ignore")
@@ -50,7 +51,7 @@ def count_by_readers(python, files):
 
 
 def count_roots(path):
-    """Samples whose parent is not in the file, or is themselves: the first sample of each id counts."""
+    """Counts samples whose parent is not in the file or is the sample itself; the first sample of each id counts."""
     parents = {}
     for line in path.read_text(errors="replace").splitlines():
         fields = line.replace(",", " ").split()
@@ -80,7 +81,7 @@ class Daemon:
 
 
 def mesh(isofieldd, isofield, path, folder):
-    """A daemon of its own for each file, so that its peak of memory is the file's."""
+    """Meshes the file with a daemon of its own, so that the daemon's peak of memory is that of the file."""
     address = f"unix:{folder}/s"
     daemon = Daemon(isofieldd, address)
     try:

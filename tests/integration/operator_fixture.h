@@ -1,4 +1,4 @@
-// What tests say to the operator service of the shared daemon.
+// A test fixture with the calls to the operator service of the shared daemon.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace isofield::integration_test {
 
-// A contact blend with a bulge of this strength.
+// Returns a contact blend with a bulge of this strength.
 inline v1::Operator bulge(double k) {
   v1::Operator message;
   message.mutable_gradient()->mutable_opening()->set_preset(v1::Opening::CONTACT);
@@ -22,7 +22,7 @@ inline v1::Operator bulge(double k) {
 
 class OperatorFixture : public testing::Test {
  protected:
-  // Leaves the catalogs as they were found.
+  // Removes all scenes and custom operators, so that the next test finds empty catalogs.
   void TearDown() override {
     for (const v1::SceneSummary& summary : peer_.list()) EXPECT_TRUE(ok(peer_.remove(summary.name())));
     for (const v1::OperatorSummary& summary : list()) {

@@ -1,4 +1,4 @@
-// OperatorService: custom operators by name, and evaluation of operators by themselves.
+// Tests OperatorService: custom operators by name, and evaluation of operators by themselves.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -81,7 +81,7 @@ TEST_F(Operator, RefusesNamesAndOperators) {
 
 TEST_F(Operator, EvaluatesTheBlend) {
   v1::EvaluateOperatorResponse response;
-  // Columns in another order than the engine's.
+  // The columns come in another order than the engine's.
   ASSERT_TRUE(ok(evaluate(
       request(of_kind("gradient"), {"theta", "f2", "f1"}, {0, 0.5f, 0.5f, kPi / 4, 0.7f, 0.7f, 0.3f, 0, 0.25f}),
       &response)));
@@ -139,7 +139,7 @@ TEST_F(Operator, EvaluatesByNameAndOfBothLaws) {
     EXPECT_EQ(by_law.columns(2), std::string("dg_d") + letter + "2");
     EXPECT_EQ(floats_of(by_law.results()), (std::vector<float>{0.75f, 0, 1}));
   }
-  // No rows, and rows of doubles.
+  // There may be no rows, and rows of doubles.
   ASSERT_TRUE(ok(evaluate(request(of_kind("max"), {"f1", "f2"}, {}), &by_law)));
   EXPECT_EQ(by_law.results().shape(0), 0u);
   v1::EvaluateOperatorRequest doubles = request(of_kind("max"), {"f1", "f2"}, {});

@@ -1,4 +1,4 @@
-// A client made of the generated stubs alone, and what tests say with it.
+// A client made of the generated stubs alone, and helpers for tests that use it.
 #pragma once
 
 #include <grpcpp/channel.h>
@@ -30,10 +30,11 @@ struct ReceivedMesh {
   bool waited_for_kernels = false;
 };
 
-// Connected to one daemon, over a connection of its own. Every method is one request; any number of threads.
+// A client with a connection of its own to one daemon. Every method is one request. Any number of threads may call
+// them.
 class Peer {
  public:
-  // The largest message that the channel receives: kOfAnySize, or gRPC's default of 4 MiB.
+  // The largest message that the channel receives: any size, or gRPC's default of 4 MiB.
   enum class Messages { kOfAnySize, kByDefault };
   explicit Peer(const std::string& address, Messages messages = Messages::kOfAnySize);
 
@@ -47,14 +48,14 @@ class Peer {
 
   grpc::Status evaluate(const v1::SceneRef& scene, std::span<const float> xyz, bool gradient, std::vector<float>* out);
   grpc::Status evaluate(const v1::EvaluateRequest& request, v1::EvaluateResponse* response);
-  // All messages of a stream are written before its answers are read: for short ones.
+  // Writes all messages of the stream before it reads the answers, so it suits only short streams.
   grpc::Status evaluate_stream(const std::vector<v1::EvaluateStreamRequest>& requests,
                                std::vector<v1::EvaluateResponse>* responses);
-  // The answers joined; checks their order and shape.
+  // Joins the answers, and checks their order and shape.
   grpc::Status evaluate_grid(const v1::EvaluateGridRequest& request, std::vector<float>* out,
                              std::size_t* messages = nullptr);
   grpc::Status mesh(const v1::MeshRequest& request, ReceivedMesh* mesh);
-  // A test fails where there is none.
+  // Returns the mesh. If there is none, the test fails.
   ReceivedMesh mesh(const v1::MeshRequest& request);
 
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
@@ -81,11 +82,11 @@ v1::Tensor points_tensor(std::span<const double> xyz);
 std::vector<float> floats_of(const v1::Tensor& tensor);
 v1::MeshRequest mesh_request(const v1::SceneRef& scene, double cell_size);
 
-// For EXPECT_TRUE(ok(...)), which prints what went wrong.
+// EXPECT_TRUE(ok(...)) prints what went wrong.
 testing::AssertionResult ok(const grpc::Status& status);
-// The code, and that the text names all of these.
+// Checks the status code, and that the text names all of these parts.
 void expect_refused(const grpc::Status& status, grpc::StatusCode code, const std::vector<std::string>& parts);
-// A daemon that is alive and serves another client.
+// Checks that the daemon is alive and serves another client.
 void expect_serving(const std::string& address);
 
 }  // namespace isofield::integration_test

@@ -1,4 +1,4 @@
-// Child processes: started, fed, watched and ended.
+// Starts, feeds, watches and ends child processes.
 #pragma once
 
 #include <sys/types.h>
@@ -11,12 +11,13 @@
 
 namespace isofield::integration_test {
 
-// Owns a child process. What it writes is read all the time, so that it never waits for us. One thread may use it.
+// Owns a child process. Its output is read all the time, so that it never waits for the test. Only one thread may use
+// it.
 class Process {
  public:
-  // The standard input is a file, by default an empty one.
+  // Starts the command. The standard input is a file, by default an empty one.
   explicit Process(const std::vector<std::string>& command, const std::string& input_path = "/dev/null");
-  // Kills it where it still runs.
+  // Kills the process if it still runs.
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -24,14 +25,14 @@ class Process {
   pid_t pid() const { return pid_; }
   void signal(int number);
   bool is_running();
-  // The exit code, or 128 + the signal that ended it.
+  // Waits for the end. Returns the exit code, or 128 + the signal that ended the process.
   int wait();
-  // Blocks until it has written a line that holds `text` to standard error, and returns the line; "" when it has closed
-  // the stream without one.
+  // Blocks until the process has written a line with `text` to standard error, and returns the line. Returns "" if the
+  // process closes the stream without such a line.
   std::string wait_for_error_line(const std::string& text) { return wait_for_line(errors_, text); }
-  // The same for standard output.
+  // Does the same for standard output.
   std::string wait_for_output_line(const std::string& text) { return wait_for_line(output_, text); }
-  // All that it has written so far.
+  // Return all that the process has written so far.
   std::string output() const;
   std::string errors() const;
 
@@ -46,7 +47,7 @@ class Process {
   std::string wait_for_line(const Stream& stream, const std::string& text);
 
   pid_t pid_ = -1;
-  int exit_code_ = -1;  // -1: not waited for
+  int exit_code_ = -1;  // -1 until the process has been waited for
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Stream output_, errors_;

@@ -17,7 +17,7 @@ R0 = np.sqrt(1 - 2 ** (-1 / 3))
 
 
 def field(points):
-    """(1 - r^2)^3 with r = clamp(r0 + (1 - r0) d / range, 0, 1), and its gradient."""
+    """Returns (1 - r^2)^3 with r = clamp(r0 + (1 - r0) d / range, 0, 1), and its gradient."""
     offset = points - CENTER
     distance = np.linalg.norm(offset, axis=1)
     r = np.clip(R0 + (1 - R0) * (distance - RADIUS) / RANGE, 0, 1)
@@ -69,7 +69,7 @@ def check_mesh(channel, reference):
     distance = np.linalg.norm(offset, axis=1)
     assert np.abs(distance - RADIUS).max() <= 0.01 * cell
     assert np.abs(normals - offset / distance[:, None]).max() <= 1e-3
-    # Closed: every edge is there once in each direction. Outward: the volume is the ball's.
+    # The mesh is closed if every edge is there once in each direction. It faces outward if its volume is the ball's.
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     there, back = (np.sort(e[:, 0].astype(np.uint64) << np.uint64(32) | e[:, 1]) for e in (edges, edges[:, ::-1]))
     assert np.array_equal(there, back) and len(np.unique(there)) == len(there)
@@ -80,7 +80,7 @@ def check_mesh(channel, reference):
 
 
 def check_grids(channel, reference):
-    """Grids with gradients, 4 MiB to 256 MiB of numbers: every part has a place, and joined they are the whole."""
+    """Checks grids of 4 MiB to 256 MiB of numbers: every part has a place, and together they are the whole."""
     from isofield.v1 import field_service_pb2 as fields
     from isofield.v1 import field_service_pb2_grpc as services
 

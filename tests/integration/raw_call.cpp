@@ -12,7 +12,7 @@ RawAnswer raw_call(const std::shared_ptr<grpc::Channel>& channel, const std::str
   grpc::GenericStub stub(channel);
   grpc::ClientContext context;
   grpc::CompletionQueue queue;
-  // One operation at a time: the tag says nothing.
+  // Only one operation runs at a time, so the tag is not needed.
   const auto finish_operation = [&queue] {
     void* tag = nullptr;
     bool succeeded = false;

@@ -1,4 +1,4 @@
-// Scenes that change or go while they are read, and many clients at once.
+// Tests scenes that change or go while they are read, and many clients at once.
 #include <gtest/gtest.h>
 #include <isofield/client.h>
 
@@ -25,7 +25,7 @@ class OpenStream {
   OpenStream(Peer& peer, const std::string& scene) : stream_(peer.fields().EvaluateStream(&context_)) {
     *request_.mutable_scene() = named(scene);
   }
-  // The error of the answer to some points, by the formula of `ball`.
+  // Evaluates some points, and returns the error of the answer by the formula of `ball`.
   double error_at_points_around(const Ball& ball) {
     const std::vector<float> xyz = points_around(ball, 1, 1000);
     *request_.mutable_points() = points_tensor(std::span(xyz));
@@ -131,7 +131,7 @@ TEST_F(Reader, ManyClientsWithMixedCallsAreAllServed) {
     for (int round = 0; round < kRounds; ++round) {
       switch ((number + round) % 4) {
         case 0: {
-          // All of them write the one scene.
+          // All of these clients write the same scene.
           EXPECT_TRUE(ok(peer.put("common", blend)));
           ReceivedMesh mesh;
           EXPECT_TRUE(ok(peer.mesh(mesh_request(named("common"), 0.05), &mesh)));
@@ -155,7 +155,7 @@ TEST_F(Reader, ManyClientsWithMixedCallsAreAllServed) {
           edit.add_edits()->set_node("a");
           edit.mutable_edits(0)->set_field("radius");
           edit.mutable_edits(0)->add_values(0.6);
-          // With so many writers at once an edit may lose every race, and says so.
+          // With so many writers at once an edit may lose every race, and its status says so.
           const grpc::Status status = peer.edit(edit);
           EXPECT_TRUE(status.ok() || status.error_code() == StatusCode::ABORTED) << status.error_message();
           break;

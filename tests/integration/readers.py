@@ -1,4 +1,4 @@
-"""An environment with readers of others' files, for tests that compare what isofield reads with what these do."""
+"""Makes an environment with other readers of the files, for tests that compare isofield's reading with theirs."""
 
 import pathlib
 import subprocess
@@ -10,9 +10,9 @@ def loud(text):
 
 
 def readers_python(folder, packages, otherwise):
-    """The interpreter of a virtual environment with the packages, which is made in the folder on first use.
+    """Returns the interpreter of a virtual environment with the packages, which is made in the folder on first use.
 
-    None where they cannot be installed; `otherwise` then says loudly what that means for the test.
+    Returns None if they cannot be installed; `otherwise` then says loudly what that means for the test.
     """
     folder = pathlib.Path(folder).absolute()
     python = folder / "bin" / "python"

@@ -1,4 +1,4 @@
-// Neurons, a molecule and particles that others made, from file to file by one command line each.
+// Tests neurons, a molecule and particles that others made, from file to file by one command line each.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 #include <isofield/import.h>
@@ -23,7 +23,7 @@ using test_support::shared_file;
 
 class RealData : public testing::Test {
  protected:
-  // Its vertices and normals as the server has them.
+  // Meshes the file. The vertices and normals are those of the server.
   GlbMesh mesh(const std::string& file, double cell) {
     const Outcome outcome = run({ISOFIELD_COMMAND, "--server", shared_daemon().address(), "mesh", shared_file(file),
                                  "--cell", absl::StrCat(cell), "--smooth-creases", "-o", directory_.path("mesh.glb")});
@@ -39,8 +39,8 @@ class RealData : public testing::Test {
     return report;
   }
 
-  // About `samples` vertices: on the surface to 1 % of a cell, by the linearised distance; normals of unit length that
-  // point against the gradient.
+  // Checks about `samples` vertices: they lie on the surface to 1 % of a cell, by the linearised distance, and their
+  // normals have unit length and point against the gradient.
   static void expect_on_surface(const GlbMesh& mesh, const v1::Scene& scene, double cell, double reference_cell,
                                 std::size_t samples) {
     LocalReference exact(scene, reference_cell);
@@ -66,7 +66,8 @@ class RealData : public testing::Test {
               << " below 0.99\n";
     EXPECT_EQ(off, 0u);
     EXPECT_EQ(not_unit, 0u);
-    // On a crease the gradient is one of the two sides', along a seam the normal turns from the one's to the other's.
+    // The gradient on a crease is that of one of the two sides. Along a seam the normal turns from one side's to the
+    // other's.
     EXPECT_LE(turned, looked_at / 400);
   }
   static v1::Scene imported(const std::string& file) {
@@ -85,12 +86,12 @@ TEST_F(RealData, ANeuronOfThousandsOfSegmentsIsMeshedByOneCommand) {
   const MeshReport report = expect_sound(neuron);
   EXPECT_GT(report.vertices, 100'000u);
   const v1::Scene scene = imported(file);
-  // 4,464 edges less three within the soma, the soma and their union.
+  // The nodes are 4,464 edges less three within the soma, the soma, and their union.
   EXPECT_EQ(scene.nodes_size(), 4463);
   EXPECT_TRUE(scene.nodes(4462).has_gradient());
   expect_on_surface(neuron, scene, 16, 64, 25'000);
   EXPECT_TRUE(test_support::self_intersections(neuron.positions, neuron.triangles).empty());
-  // Once more, to the byte.
+  // A second run gives the same bytes.
   const std::string first = read_file(directory_.path("mesh.glb"));
   mesh(file, 16);
   EXPECT_TRUE(read_file(directory_.path("mesh.glb")) == first);

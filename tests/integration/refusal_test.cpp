@@ -1,5 +1,5 @@
-// Scenes that are refused: each with INVALID_ARGUMENT, a text that names node, field, value and what is expected, and
-// nothing stored.
+// Tests that bad scenes are refused with INVALID_ARGUMENT and a text that names node, field, value and what is
+// expected, and that nothing is stored.
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ struct BadScene {
   std::string what, nodes;
   std::vector<std::string> parts;
 };
-// GoogleTest would print its bytes.
+// Without this function GoogleTest would print the bytes.
 void PrintTo(const BadScene& scene, std::ostream* out) {
   *out << scene.what;
 }
@@ -35,7 +35,7 @@ std::string opening(const std::string& fields) {
                    absl::StrCat(R"("children": ["ball", "ball"], "opening": {"preset": "CAMEL", )", fields, "}"));
 }
 
-// "What is refused" of a Blob-tree, as far as this version of the contract can say it.
+// The scenes hold what is refused in a Blob-tree, as far as this version of the contract can say it.
 const BadScene kBadScenes[] = {
     {"NoNodes", "", {"nodes", "at least 1"}},
     {"CycleOfOne", primitive("max", R"("children": ["part"])"), {"part", "cycle"}},
@@ -119,7 +119,7 @@ TEST_P(Refusal, StoresNothing) {
   const v1::Scene scene = test_support::scene_of_nodes(GetParam().nodes);
   expect_refused(peer_.put("bad", scene), StatusCode::INVALID_ARGUMENT, GetParam().parts);
   EXPECT_TRUE(peer_.list().empty());
-  // Inline, it is refused in the same words.
+  // The inline scene is refused in the same words.
   const std::vector<float> point{0, 0, 0};
   expect_refused(peer_.evaluate(inlined(scene), point, false, nullptr), StatusCode::INVALID_ARGUMENT, GetParam().parts);
   ReceivedMesh mesh;

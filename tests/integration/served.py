@@ -19,7 +19,7 @@ def generate(protoc, protos, out):
 
 
 def start_daemon(isofieldd, address):
-    """A running daemon, and the address that it serves: of port 0 it is a free one."""
+    """Returns a running daemon and the address that it serves, with the real port if the stated one is 0."""
     daemon = subprocess.Popen([isofieldd, "--listen", address, "--validation"], stderr=subprocess.PIPE, text=True)
     for line in daemon.stderr:
         if "listening on" in line:
@@ -28,7 +28,7 @@ def start_daemon(isofieldd, address):
 
 
 def stop_daemon(daemon):
-    """Fails where the daemon exits with an error or the Vulkan validation layer has said anything."""
+    """Stops the daemon. Fails if it exits with an error or the Vulkan validation layer has said anything."""
     daemon.send_signal(signal.SIGTERM)
     _, log = daemon.communicate()
     assert daemon.returncode == 0, f"exit code {daemon.returncode}\n{log}"
@@ -51,6 +51,6 @@ def served(isofieldd, protoc, protos):
 
 
 def array(tensor):
-    """The numbers of a Tensor message."""
+    """Returns the numbers of a Tensor message."""
     dtype = {1: "<f4", 2: "<f8", 3: "<u4", 4: "u1"}[tensor.dtype]
     return np.frombuffer(tensor.data, dtype).reshape(tuple(tensor.shape))

@@ -1,4 +1,4 @@
-// What any gRPC tool finds: reflection, health, and GetInfo.
+// Tests what any gRPC tool finds: reflection, health, and GetInfo.
 #include <absl/strings/str_cat.h>
 #include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST(Services, RequestsThatCannotBeReadAreInvalidArguments) {
     const std::string name = absl::StrCat("/", method->service()->full_name(), "/", method->name());
     // The first message ends within a field, and the first tag of the second one is invalid.
     std::vector<std::string> messages{std::string("\x0a\xff\xff\xff\x7f", 5), std::string(64, '\xff')};
-    // Where a request begins with a string, this one is not UTF-8.
+    // If a request begins with a string, the third message holds one that is not UTF-8.
     const auto* first = method->input_type()->FindFieldByNumber(1);
     if (first && first->type() == google::protobuf::FieldDescriptor::TYPE_STRING) messages.emplace_back("\x0a\x01\xff");
     for (const std::string& message : messages) {

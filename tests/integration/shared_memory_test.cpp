@@ -1,4 +1,5 @@
-// Points and results in memory that client and daemon share: right, refused, and given back.
+// Tests points and results in memory that client and daemon share: right results, refusals, and memory that is given
+// back.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <isofield/client.h>
@@ -74,7 +75,7 @@ class Region {
     EXPECT_TRUE(response.ParseFromArray(received.data(), static_cast<int>(std::max<ssize_t>(got, 0))));
     return response;
   }
-  // Until the daemon has closed its end.
+  // Waits until the daemon has closed its end.
   void wait_until_closed() {
     char byte = 0;
     EXPECT_EQ(recv(socket_, &byte, 1, 0), 0);
@@ -159,7 +160,7 @@ TEST_F(SharedMemory, ResultsAreTheBitsOfTheWire) {
     ASSERT_TRUE(ok(peer_.evaluate(request(region, columns), &response)));
     EXPECT_FALSE(response.has_result());
     EXPECT_EQ(region.get(kResultAt, columns * kPoints), wire);
-    // Either alone.
+    // Next only the points are shared, and then only the results.
     v1::EvaluateRequest half = request(region, columns);
     half.clear_shared_result();
     ASSERT_TRUE(ok(peer_.evaluate(half, &response)));
@@ -187,7 +188,7 @@ TEST_F(SharedMemory, TheClientGetsTheSameBitsAndSharesOneRegionAtATime) {
     ASSERT_TRUE(shared.ok()) << shared.status();
     EXPECT_EQ(*shared, *wire);
   }
-  // The side connection; the other one's connection is gRPC's.
+  // One new descriptor is the side connection, the other one is a connection of gRPC.
   EXPECT_LE(descriptors_of(daemon_->process()), before + 2);
 }
 
@@ -271,7 +272,7 @@ TEST_F(SharedMemory, MemoryThatCouldVanishIsRefused) {
   Region large(socket_, (std::size_t{1} << 30) + 4096);
   EXPECT_EQ(large.answer().code(), RESOURCE_EXHAUSTED);
   EXPECT_NE(large.answer().message().find("--max-shared-bytes"), std::string::npos);
-  // One region a connection, one descriptor a packet.
+  // A connection has one region, and a packet has one descriptor.
   Region region(socket_);
   EXPECT_EQ(region.send("\1", {region.descriptor()}).code(), FAILED_PRECONDITION);
   region.wait_until_closed();
@@ -290,7 +291,7 @@ TEST_F(SharedMemory, ARegionEndsWithItsConnection) {
   v1::EvaluateResponse response;
   ASSERT_TRUE(ok(peer_.evaluate(request(region), &response)));
   region.disconnect();
-  // Connections are looked at in their order: when a new one is answered, the end of the old one has been seen.
+  // The daemon handles connections in order. When a new one is answered, it has seen the end of the old one.
   Region next(socket_);
   expect_refusal(request(region), grpc::StatusCode::NOT_FOUND, {"no such region"});
 }

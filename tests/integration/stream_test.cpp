@@ -1,5 +1,5 @@
-// EvaluateStream with several messages at work: answers keep their order, and an error or a cancellation among them
-// ends the stream.
+// Tests EvaluateStream with several messages at work: answers keep their order, and an error or a cancellation among
+// them ends the stream.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -104,7 +104,7 @@ TEST(Stream, CancelledWithMessagesAtWorkItGivesBackWhatItHeld) {
     EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
   }
   EXPECT_TRUE(ok(peer.remove("streamed")));
-  // As many as are admitted can be open at a time: none of those is any more, or this one would be refused in the end.
+  // The cancelled streams must have ended, and the daemon must serve other calls.
   expect_serving(shared_daemon().address());
 }
 

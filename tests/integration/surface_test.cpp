@@ -1,4 +1,4 @@
-// SurfaceService and Measure: questions over gRPC, by the stubs, the client and the command line.
+// Tests SurfaceService and Measure over gRPC: by the stubs, the client and the command line.
 #include <gtest/gtest.h>
 #include <isofield/client.h>
 
@@ -42,7 +42,7 @@ TEST(Surface, RaysHitBallsAndNameThem) {
   Client c = client();
   v1::CastRaysRequest request;
   *request.mutable_scene() = inline_scene(two_balls());
-  // More than one message holds, and the names of later ones come in another order.
+  // There are more rays than one message holds, and later messages name the nodes in another order.
   const std::size_t count = Client::kChunkPoints + 3;
   std::vector<float> origins, directions;
   for (std::size_t i = 0; i < count; ++i) {

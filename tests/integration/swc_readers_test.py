@@ -1,11 +1,11 @@
-"""Compares what `isofield import` reads of neurons with what two other readers do: morphio counts the neurites, their
-sections and the edges of these, navis the trees and the nodes. Every difference is explained in a table below; one
-that is not, or an explanation that does not hold, fails.
+"""Compares what `isofield import` reads of neurons with what two other readers read: morphio counts the neurites, their
+sections and the edges of these, navis the trees and the nodes. Every difference is explained in a table below.
+A difference without an explanation, or an explanation that does not hold, is a failure.
 
 Usage: swc_readers_test.py ISOFIELD SHARED READERS
 SHARED ($ISOFIELD_SHARED in its place, if that is set) is the folder with the files. READERS is a folder for a virtual
-environment with morphio and navis; it is made when it is not there. Where they cannot be installed the test is skipped.
-Needs no server.
+environment with morphio and navis; it is made if it does not exist. If they cannot be installed, the test is
+skipped. It needs no server.
 """
 
 import json
@@ -69,7 +69,7 @@ NAVIS_REFUSES = {
     "z_jump.swc": "a comment after a blank line at the end",
 }
 
-# For each file: the number of morphio's edges minus isofield's, and why they differ.
+# This table has, for each file, the number of morphio's edges minus isofield's, and why they differ.
 MORPHIO_DIFFERENCES = {
     "Neuron-monotonic.swc": (-80, "the file repeats each of the 80 points where a section begins; morphio leaves out "
                              "the edges of length 0, isofield reports them"),
@@ -77,7 +77,7 @@ MORPHIO_DIFFERENCES = {
 
 
 def read_samples(path):
-    """By id: type and parent. Says which pieces belong to neurites; the counts under test are isofield's own."""
+    """Returns type and parent by id. They say which pieces belong to neurites; the counts under test are isofield's."""
     samples = {}
     for line in path.read_text(errors="replace").splitlines():
         fields = line.split("#")[0].replace(",", " ").split()
@@ -87,8 +87,8 @@ def read_samples(path):
 
 
 def count_by_isofield(isofield, path, folder):
-    """Samples and trees by the report. The edges between samples of neurites are the pieces of the scene that are named
-    after one, and what the report says was left out, without the edges from a soma."""
+    """Returns the samples and trees by the report, and the edges between samples of neurites. These are the pieces of
+    the scene that are named after one, and what the report says was left out, without the edges from a soma."""
     scene_file = f"{folder}/scene.json"
     run = subprocess.run([isofield, "--json", "import", path, "-o", scene_file], capture_output=True, text=True)
     assert run.returncode == 0, f"{path}: {run.stderr}"

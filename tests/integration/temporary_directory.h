@@ -1,3 +1,4 @@
+// Directories and files for the tests of processes.
 #pragma once
 
 #include <filesystem>
@@ -5,7 +6,7 @@
 
 namespace isofield::integration_test {
 
-// An empty directory that goes away with the object. Its path is short, as those of unix sockets must be.
+// An empty directory, which is removed with the object. Its path is short, because paths of unix sockets must be short.
 class TemporaryDirectory {
  public:
   TemporaryDirectory();
@@ -14,7 +15,7 @@ class TemporaryDirectory {
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
   std::string path(const std::string& name) const { return (path_ / name).string(); }
-  // Names of what is in it.
+  // Returns the names of the files in it.
   std::string listing() const;
 
  private:

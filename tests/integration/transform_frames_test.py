@@ -1,8 +1,8 @@
-"""Blends under transforms that change angles: a transform of f must yield f(T^-1 p).
+"""Tests blends under transforms that change angles: a transform of f must yield f(T^-1 p).
 
 A second implementation in NumPy, in double precision and with bisection throughout, evaluates trees node by node, each
 in its own frame, and is compared with the daemon. It shares no code and no derivation with the project: the smooth
-silhouette is solved in the additive form h(x1) + h(x2) = 1, all partial derivatives are differences.
+silhouette is solved in the additive form h(x1) + h(x2) = 1, and all partial derivatives are differences.
 
 Usage: transform_frames_test.py ISOFIELDD PROTOC PROTO_FOLDER
 """
@@ -23,7 +23,7 @@ POINTS, GRADIENTS = 300, 60
 
 
 def bisect(function, low, high):
-    """The root of a function that falls from `low` to `high`, which are arrays."""
+    """Returns the root of a function that falls from `low` to `high`, which are arrays."""
     for _ in range(40):
         middle = 0.5 * (low + high)
         is_low = function(middle) > 0
@@ -68,7 +68,7 @@ def boundary(f, t):
 
 
 def smooth_blend(f1, f2, t):
-    """g(f1, f2) at t = tan(theta)."""
+    """Returns g(f1, f2) at t = tan(theta)."""
     most, least = np.maximum(f1, f2), np.minimum(f1, f2)
 
     def above(c):
@@ -82,7 +82,7 @@ def smooth_blend(f1, f2, t):
 
 
 def differenced(g, f1, f2, step=1e-4):
-    """An operator's value and partial derivatives."""
+    """Returns an operator's value and partial derivatives."""
     return (g(f1, f2), (g(f1 + step, f2) - g(f1 - step, f2)) / (2 * step),
             (g(f1, f2 + step) - g(f1, f2 - step)) / (2 * step))
 
@@ -251,7 +251,7 @@ def joined(nodes, first, second, kind, parameters):
 
 
 def map_of(random, condition):
-    """A matrix with this condition number, and an offset: it scales, shears, turns and sometimes mirrors."""
+    """Returns a matrix of this condition number and an offset. The map scales, shears, turns, sometimes mirrors."""
     turns = [np.linalg.qr(random.normal(size=(3, 3)))[0] for _ in range(2)]
     stretch = np.array([1, condition ** random.uniform(0, 1), condition]) / np.sqrt(condition)
     return turns[0] @ np.diag(stretch) @ turns[1], random.uniform(-0.3, 0.3, 3)
@@ -265,7 +265,7 @@ def parameters_of(random):
 
 
 def scene(kind, condition, depth, random):
-    """A tree of `depth` operators of the kind, each below a map of this condition number."""
+    """Returns a tree of `depth` operators of the kind, each below a map of this condition number."""
     is_signed = kind not in OPENINGS
     nodes = []
     tree = sphere(nodes, random, is_signed)
@@ -302,7 +302,7 @@ def check_fields(channel):
                 some = p[:GRADIENTS]
                 gradient = np.stack([(evaluate(some + step * e)[0] - evaluate(some - step * e)[0]) / (2 * step)
                                      for e in np.eye(3)], axis=1)
-                # Deep inside a super-elliptic blend is a high power, and nested it multiplies the rounding below.
+                # A super-elliptic blend is a high power deep inside, and a nested one multiplies the rounding below it.
                 off = np.where(np.abs(value) > 4, 0, np.abs(result[:, 0] - value))
                 # Compact fields are within 2e-6 up to a condition number of 10; else the rounding of the point counts, too.
                 slope = np.linalg.norm(result[:, 1:], axis=1)
@@ -317,7 +317,7 @@ def check_fields(channel):
 
 
 def check_pick(channel):
-    """A picked angle is the one that the placed scene blends by: both are measured in the node's frame."""
+    """Checks that a picked angle is the one that the placed scene blends by: both are measured in the node's frame."""
     from google.protobuf import json_format
     from isofield.v1 import operator_service_pb2 as operators
     from isofield.v1 import operator_service_pb2_grpc as services

@@ -1,4 +1,4 @@
-// The surface of a cube, for meshes of any kind.
+// Makes the triangulated surface of a cube, from which tests build meshes of any type.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@ namespace isofield::test_support {
 
 struct CubeGrid {
   std::vector<std::array<double, 3>> places;
-  std::vector<std::array<double, 3>> sides;  // outward normals, of vertices on edges that of the last of their sides
+  std::vector<std::array<double, 3>> sides;  // outward normals; a vertex on an edge has the normal of one of its sides
   std::vector<std::uint32_t> triangles;      // counter-clockwise from outside
 };
 
-// The cube [-1, 1]^3, n squares along each edge; its sides share the vertices on their edges.
+// Makes the cube [-1, 1]^3 with n squares along each edge. Its sides share the vertices on their edges.
 inline CubeGrid cube_grid(int n) {
   CubeGrid grid;
   std::map<std::array<int, 3>, std::uint32_t> numbers;

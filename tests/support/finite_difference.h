@@ -1,4 +1,4 @@
-// Derivatives by differences, to check the exact ones against.
+// Numerical derivatives by differences. Tests compare exact derivatives with them.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@ double slope(const Function& f, double x, double h) {
   return (8 * (f(x + h) - f(x - h)) - (f(x + 2 * h) - f(x - 2 * h))) / (12 * h);
 }
 
-// The same where two step sizes agree to `tolerance` (relative, or absolute below 1): nothing where f has a kink within
-// 2 h of x, or bends too much for differences.
+// Computes the same slope, but only where two step sizes agree to `tolerance` (relative, or absolute below 1). Returns
+// nothing where f has a kink within 2 h of x, or bends too much for differences.
 template <class Function>
 std::optional<double> settled_slope(const Function& f, double x, double h, double tolerance) {
   const double coarse = slope(f, x, h), fine = slope(f, x, h / 3);

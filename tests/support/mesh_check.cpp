@@ -23,7 +23,7 @@ Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// Disjoint sets of the numbers below `size`.
+// A union-find structure over the numbers below `size`.
 class Sets {
  public:
   explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -38,7 +38,7 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
-// A side of a triangle: from its corner to the next corner.
+// A side of a triangle, from one corner to the next.
 struct Side {
   std::uint64_t edge;    // the lower vertex and the higher vertex
   std::uint32_t corner;  // 3 * triangle + (0, 1 or 2)

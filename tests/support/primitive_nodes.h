@@ -1,4 +1,4 @@
-// A node of every kind of primitive, as JSON.
+// Gives one node of every kind of primitive, as JSON.
 #pragma once
 
 #include <absl/strings/str_cat.h>
@@ -13,7 +13,7 @@ struct PrimitiveNode {
   const char* body;  // the node's body without law and range
   bool is_bounded = true;
 
-  // {"name": "NAME", "KIND": {BODY, range or law}}
+  // Returns {"name": "NAME", "KIND": {BODY, range or law}}.
   std::string text(const std::string& name, bool is_signed) const {
     return absl::StrCat(R"({"name": ")", name, R"(", ")", kind, R"(": {)", body,
                         is_signed ? R"(, "law": "SIGNED"}})" : R"(, "range": 0.6}})");

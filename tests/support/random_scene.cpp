@@ -11,8 +11,8 @@
 namespace isofield::test_support {
 namespace {
 
-constexpr int kMostTransformsAbove = 2;  // of one primitive: keeps coordinates small
-constexpr int kMostInstances = 400;      // of primitives below one node
+constexpr int kMostTransformsAbove = 2;  // above one primitive; the limit keeps coordinates small
+constexpr int kMostInstances = 400;      // primitives below one node
 
 void set_point(google::protobuf::RepeatedField<double>* out, const blobtree::dvec3& p) {
   for (const double x : {p.x, p.y, p.z}) out->Add(x);
@@ -31,7 +31,7 @@ class SceneMaker {
       } else {
         add_primitive();
       }
-      // Blends of blends need depth: use up some of what is there now and then.
+      // Blends of blends need depth, so some of the unused nodes are joined now and then.
       while (unused_.size() > 1 && random_.chance(0.35)) add_above();
     }
     while (unused_.size() > 1 && static_cast<int>(parts_.size()) < options_.nodes - 1) add_above();
@@ -43,8 +43,8 @@ class SceneMaker {
   struct Part {
     v1::Node node;
     std::vector<int> children;
-    int instances = 1;   // primitives below, shared ones counted at every use
-    int transforms = 0;  // the most on a way down
+    int instances = 1;   // primitives below; a shared one counts at every use
+    int transforms = 0;  // the largest number on any way down to a primitive
     bool is_signed = false;
   };
 
@@ -76,7 +76,7 @@ class SceneMaker {
       case 1: {
         v1::Segment& s = *node.mutable_segment();
         set_point(s.mutable_a(), centre);
-        // A point now and then: both ends in one place.
+        // A segment is a point now and then: both ends lie in one place.
         set_point(s.mutable_b(), random_.chance(0.1) ? centre : centre + random_.point(-1, 1));
         s.set_radius_a(length());
         s.set_radius_b(random_.chance(0.4) ? s.radius_a() : length());
@@ -119,7 +119,7 @@ class SceneMaker {
     add(std::move(part));
   }
 
-  // A signed primitive, or now and then a positive one made signed, that is not in `unused_`.
+  // Makes a signed primitive, or now and then a positive one made signed. The node is not added to `unused_`.
   int add_signed_operand() {
     add_primitive();
     const int primitive = unused_.back();
@@ -142,7 +142,7 @@ class SceneMaker {
     return primitive;
   }
 
-  // One or two operators of signed fields under a conversion to a positive one.
+  // Adds one or two operators of signed fields under a conversion to a positive one.
   void add_signed_tree() {
     std::vector<int> operands;
     const int count = random_.chance(0.6) ? 2 : random_.integer(2, 5);
@@ -225,7 +225,7 @@ class SceneMaker {
     return place;
   }
 
-  // Barthe's operators and Bernhardt's.
+  // Makes one of the operators of Barthe and Bernhardt.
   void fill_classic(v1::Node& node) {
     switch (random_.integer(0, 2)) {
       case 0:
@@ -257,7 +257,7 @@ class SceneMaker {
     return part;
   }
 
-  // A transform or an operator over nodes that nothing refers to yet, and sometimes one that something does.
+  // Adds a transform or an operator over nodes that no node refers to yet, and sometimes over one that is in use.
   void add_above() {
     if (options_.transforms && random_.chance(0.25)) {
       const int child = take_unused();
@@ -372,7 +372,7 @@ class SceneMaker {
     o.set_w1(random_.number(0.5, 3));
   }
 
-  // The nodes in any order, referred to by name or by place.
+  // Returns the nodes in any order. They refer to each other by name or by place.
   v1::Scene shuffled() {
     const int count = static_cast<int>(parts_.size());
     std::vector<int> place(count);

@@ -1,5 +1,5 @@
-// Random valid scenes of about unit scale: coordinates within about [-2, 2], radii and ranges within [0.1, 0.8], so
-// that most primitives overlap others.
+// Makes random valid scenes of about unit scale: coordinates lie within about [-2, 2], radii and ranges within [0.1,
+// 0.8], so that most primitives overlap others.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace isofield::test_support {
 
-// The same numbers with every standard library, unlike those of std::uniform_real_distribution.
+// A random generator that gives the same numbers with every standard library, unlike std::uniform_real_distribution.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  // Within [low, high[.
+  // Returns a number within [low, high[.
   double number(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  // Within [low, high].
+  // Returns an integer within [low, high].
   int integer(int low, int high) {
     return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }
   bool chance(double probability) { return number(0, 1) < probability; }
-  // Within the box [low, high]^3.
+  // Returns a point within the box [low, high]^3.
   blobtree::dvec3 point(double low, double high) {
     const double x = number(low, high), y = number(low, high), z = number(low, high);
     return {x, y, z};
@@ -33,19 +33,21 @@ class Random {
 };
 
 struct RandomSceneOptions {
-  // About as many nodes; at least 1.
+  // The approximate number of nodes; at least 1.
   int nodes = 40;
-  // Operators other than sum, max and the gradient-based blend, which cut pieces away, and forms that do.
+  // Allows operators that cut pieces away (all but sum, max and the gradient-based blend), and forms that do.
   bool cuts = true;
-  // Signed fields, with their operators and the conversions between the laws; the classic blends of positive fields.
+  // Allows signed fields, with their operators and the conversions between the laws, and the classic blends of positive
+  // fields.
   bool all_operators = true;
   bool transforms = true;
-  // Some nodes are used twice.
+  // Uses some nodes twice.
   bool sharing = true;
 };
 
-// Every kind of node, opening (presets, changed presets, custom) and silhouette appears, given enough nodes. Nodes lie
-// in any order; some have names.
+// Makes a scene from a seed. All kinds of nodes but half_space, cone, smooth_min and custom appear, and all openings
+// (presets, changed presets, custom) and silhouettes, given enough nodes. The nodes lie in any order, and some have
+// names.
 v1::Scene random_scene(std::uint64_t seed, const RandomSceneOptions& options = {});
 
 }  // namespace isofield::test_support

@@ -1,4 +1,4 @@
-// Scenes for tests, written as people write them.
+// Reads scenes that tests write as JSON texts, as people write them.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -12,16 +12,16 @@
 
 namespace isofield::test_support {
 
-// The Scene message of a proto3 JSON text. The process ends where the text is wrong: it is part of the test.
+// Returns the Scene message of a proto3 JSON text. A wrong text ends the process, because the text is part of the test.
 v1::Scene scene_message(const std::string& json);
 
-// ... with `nodes` as the JSON list of nodes; the last is the root.
+// Returns the Scene message with `nodes` as the JSON list of nodes; the last one is the root.
 v1::Scene scene_of_nodes(const std::string& nodes);
 
-// "#i".
+// Returns "#i", which refers to node i.
 std::string place(std::size_t i);
 
-// Read and compiled; the process ends where that is refused.
+// Read or compile a scene. A refusal ends the process.
 blobtree::Scene read_or_die(const v1::Scene& message);
 blobtree::Tape compile_or_die(const blobtree::Scene& scene);
 

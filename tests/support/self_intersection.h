@@ -1,4 +1,4 @@
-// Whether a mesh's triangles meet other than where they share vertices: by CGAL, with exact predicates.
+// Finds triangles of a mesh that meet other than where they share vertices. It uses CGAL with exact predicates.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,9 @@
 
 namespace isofield::test_support {
 
-// Pairs of triangles, by number, that meet in more than the vertices and edges that they share. 3 coordinates a vertex,
-// 3 indices a triangle; the mesh is manifold. About linear, a few seconds a million triangles.
+// Returns the pairs of triangles, by number, that meet in more than the vertices and edges that they share. The mesh
+// has 3 coordinates for each vertex and 3 indices for each triangle, and must be manifold. The time is about linear: a
+// few seconds for a million triangles.
 std::vector<std::pair<std::size_t, std::size_t>> self_intersections(std::span<const float> positions,
                                                                     std::span<const std::uint32_t> triangles);
 

@@ -1,4 +1,5 @@
-// The files that lie beside the checkout, in shared/: golden values, papers' scenes.
+// Finds the files that lie beside the checkout, in shared/ (golden values, the papers' scenes), and reads tables of
+// numbers.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -10,13 +11,13 @@
 
 namespace isofield::test_support {
 
-// $ISOFIELD_SHARED, else shared/ beside the checkout; the place alone, whether or not something is there.
+// Returns the path of a file in $ISOFIELD_SHARED, or else in shared/ beside the checkout. The file need not exist.
 std::filesystem::path shared_file(const std::string& name);
 
-// A file of the checkout itself.
+// Returns the path of a file of the checkout itself.
 std::filesystem::path checkout_file(const std::string& name);
 
-// Whether the file is there; says loudly on stderr that a test is skipped where it is not.
+// Returns whether the file exists. If it does not, a line on stderr says that a test is skipped.
 bool has_shared_file(const std::string& name);
 
 // A table of numbers with a line of column names.
@@ -24,11 +25,13 @@ struct NumberTable {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;  // each as long as `columns`
 };
+// Reads a CSV file. Fails with NotFound if it can't be opened, and with InvalidArgument for a row that does not hold a
+// number for each column.
 absl::StatusOr<NumberTable> read_csv(const std::filesystem::path& path);
 
 }  // namespace isofield::test_support
 
-// At the start of a test that needs a file of shared/.
+// A test that needs a file of shared/ begins with this macro. It skips the test if the file is missing.
 #define ISOFIELD_NEEDS_SHARED(name)                                                                           \
   if (!isofield::test_support::has_shared_file(name)) {                                                       \
     GTEST_SKIP() << isofield::test_support::shared_file(name).string() << " is missing; set ISOFIELD_SHARED"; \

@@ -8,7 +8,7 @@ namespace {
 
 using blobtree::dvec3;
 
-// The largest of difference(gradient at p, gradient nearby).
+// Returns the largest difference(gradient at p, gradient nearby).
 template <class Difference>
 double variation(const reference::Evaluator& evaluator, const dvec3& p, double offset, const Difference& difference) {
   const dvec3 here = evaluator.evaluate(p).gradient;

@@ -23,7 +23,7 @@ FieldState linear(const FieldState& a, double factor, double offset) {
   return {a.field * s + Dual(offset), {a.steering.x * s, a.steering.y * s, a.steering.z * s}};
 }
 
-// The operator of an instruction, of the operands that its mask leaves.
+// Returns the operator of an instruction, with only those operands that the instruction's mask keeps.
 operators::Operator operator_of(const Instruction& i, const blobtree::Operation& o) {
   if (i.op() == operators::Opcode::kSubtract || i.op() == operators::Opcode::kSubtractFrom) {
     return operators::Difference{};
@@ -89,7 +89,7 @@ FieldState TapeInterpreter::evaluate(std::span<const Instruction> code, const bl
       acc = combine(use, operands);
       continue;
     }
-    // A popped value is the left operand: its code came first.
+    // A popped value is the left operand, because its code came first.
     FieldState right = acc;
     if (i.operand() == Operand::kPop) {
       if (waiting_.empty()) die("a tape pops a value that is not there");

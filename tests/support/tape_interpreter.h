@@ -1,4 +1,5 @@
-// A tape, or a pruned part of one, evaluated in double precision, instruction by instruction.
+// Evaluates a tape, or a pruned part of one, in double precision, instruction by instruction. Tests compare it with the
+// reference evaluator of the scene.
 #pragma once
 
 #include <span>
@@ -11,12 +12,12 @@ namespace isofield::test_support {
 
 class TapeInterpreter {
  public:
-  // `tape` must outlive the interpreter. One thread at a time.
+  // `tape` must outlive the interpreter. Only one thread at a time may use the interpreter.
   explicit TapeInterpreter(const blobtree::Tape& tape) : tape_(tape) {}
 
-  // An empty code is the field that is 0 everywhere.
+  // Evaluates `code` at p. An empty code is the field that is 0 everywhere. A malformed code ends the process.
   reference::FieldState evaluate(std::span<const blobtree::Instruction> code, const blobtree::dvec3& p);
-  // Values that waited beside the accumulator at once, at most, in all evaluations.
+  // The largest number of values that waited beside the accumulator at once, in all evaluations.
   std::size_t most_waiting() const { return most_waiting_; }
 
  private:

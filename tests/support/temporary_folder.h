@@ -1,4 +1,4 @@
-// Makes folders for tests.
+// Makes folders for tests and removes them afterwards.
 #pragma once
 
 #include <absl/strings/str_cat.h>

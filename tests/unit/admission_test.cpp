@@ -1,4 +1,5 @@
-// How many requests are admitted, what they count, and when those that are refused may come again; without time.
+// Tests how many requests are admitted, what they count, and when a refused one may come again. The clock is a
+// variable.
 #include "rpc/admission.h"
 
 #include <absl/strings/match.h>
@@ -79,7 +80,7 @@ TEST_F(AdmissionTest, SaysWhenTheWorkWillBeDone) {
     const Admission::Ticket done = admission_.admit(99).value();
     now_ += seconds(2);
   }
-  now_ += seconds(1000);  // with nothing to do
+  now_ += seconds(1000);  // there is nothing to do in this time
   const Admission::Ticket running = admission_.admit(99).value();
   EXPECT_NEAR(static_cast<double>(*retry_after_ms(admission_.admit(99).status())), 2000, 1);
   Admission::Ticket more = admission_.count(99'999);

@@ -73,7 +73,7 @@ TEST(Affine, StretchOfKnownMaps) {
   const Affine::Stretch s = Affine::scale({-3, 0.5, 2}).stretch();
   EXPECT_NEAR(s.least, 0.5, 1e-14);
   EXPECT_NEAR(s.most, 3, 1e-14);
-  // Scaled between two rotations: the same.
+  // A scale between two rotations has the stretch of the scale alone.
   const Affine turned =
       Affine::rotation({1, 2, 3}, 0.7).after(Affine::scale({1000, 1, 0.01})).after(Affine::rotation({-1, 1, 5}, 2.1));
   EXPECT_NEAR(turned.stretch().most, 1000, 1e-9);
@@ -122,7 +122,7 @@ TEST(Affine, FrameIsRigidAndTakesZToTheDirection) {
     expect_near(f.vector({0, 0, 1}), direction * (1 / length(direction)), 1e-14);
     EXPECT_NEAR(f.stretch().least, 1, 1e-12);
     EXPECT_NEAR(f.stretch().most, 1, 1e-12);
-    // Right-handed.
+    // The frame is right-handed.
     expect_near(cross(f.vector({1, 0, 0}), f.vector({0, 1, 0})), f.vector({0, 0, 1}), 1e-14);
   }
 }

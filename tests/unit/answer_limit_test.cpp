@@ -10,7 +10,7 @@
 namespace isofield::rpc {
 namespace {
 
-// The size of the largest message that an answer of so many rows of a grid can be: all places in it are large numbers.
+// Returns the size of the largest message with so many rows of a grid: every number that states a place is large.
 std::uint64_t grid_message_bytes(std::uint64_t rows, std::uint64_t columns) {
   v1::EvaluateGridResponse response;
   response.set_first_layer(~0ull);
@@ -96,7 +96,7 @@ TEST(GridParts, FollowOneAnotherAndKeepTheLimit) {
         EXPECT_GT(columns * rows * layers, 0u);
         EXPECT_TRUE(columns == nx || rows * layers == 1) << "points of one row";
         EXPECT_TRUE(rows == ny || layers == 1) << "rows of one layer";
-        // A part has whole layers if it can hold one.
+        // A part has whole layers if it can hold one layer.
         if (most >= nx * ny) {
           EXPECT_EQ(columns * rows, nx * ny);
         }

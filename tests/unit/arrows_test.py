@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Reads the #include lines of server/ and fails where the rooms of the house are not kept apart.
+"""Reads the #include lines of server/ and fails if a room of the house includes a file that it may not include.
 
 Usage: arrows_test.py SERVER_FOLDER
 """
@@ -10,7 +10,7 @@ import sys
 import tempfile
 import unittest
 
-# The rooms that each room may include, beside itself and base. The arrows point down: a room knows nobody above it.
+# The rooms that each room may include, beside itself and base. The arrows point down: a room includes no room above it.
 BLOBTREE = ["blobtree/geometry", "blobtree/primitives", "blobtree/scene", "blobtree/tape", "blobtree/cull"]
 BELOW_ENGINE = BLOBTREE + ["operators", "gpu", "shaders"]
 ENGINE_ROOMS = ["engine/kernels", "engine/residency", "engine/points", "engine/mesh", "engine/simplify",
@@ -22,7 +22,7 @@ ARROWS = {
     "scenes": ["catalog", "engine", "operators"] + BLOBTREE,
     "catalog": BLOBTREE + ["operators"],
     "reference": BLOBTREE + ["operators"],
-    # The facade, and the rooms that it joins.
+    # The facade may include the rooms that it joins.
     "engine": ENGINE_ROOMS + ["engine/session"] + BELOW_ENGINE,
     "engine/surface": ["engine/mesh", "engine/points", "engine/kernels", "engine/residency", "engine/session"]
                       + BELOW_ENGINE,
@@ -41,10 +41,10 @@ ARROWS = {
     "gpu": [],
     "base": [],
 }
-# Files at engine's own level that lie below its rooms; the others are its facade.
+# These files lie in engine/ itself but below its rooms. The other files of engine/ are its facade.
 SESSION_FILES = ["session", "request_times", "dealing"]
 
-# What comes from elsewhere, and the rooms that alone may include it.
+# Libraries and generated headers from elsewhere, with the only rooms that may include them.
 OUTSIDE = [
     (re.compile(r"vulkan/"), ["gpu"]),
     (re.compile(r"(grpc|grpcpp)/|isofield/v1/.*\.grpc\.pb\.h$"), ["rpc", "daemon"]),
@@ -58,7 +58,7 @@ INCLUDE = re.compile(r'\s*#\s*include\s+["<]([^">]+)[">]')
 
 
 def room_of(path):
-    """The room of a file, whose path begins in server/; None for what comes from elsewhere."""
+    """Returns the room of a file, whose path begins in server/, or None for what comes from elsewhere."""
     parts = path.split("/")
     if len(parts) == 1:
         return "main" if path == "main.cpp" else None
@@ -70,7 +70,7 @@ def room_of(path):
 
 
 def read_files(server):
-    """Path -> lines, of all sources."""
+    """Returns the lines of all sources by their paths."""
     files = {}
     for folder, _, names in os.walk(server):
         for name in names:
@@ -99,7 +99,7 @@ def arrow_faults(path, included):
 
 
 def find_circle(graph):
-    """A list of nodes that leads back to its first one; empty: there is none."""
+    """Returns a list of nodes that leads back to its first one, or an empty list."""
     done = set()
 
     def follow(node, way):
@@ -142,7 +142,7 @@ def faults(server):
 
 
 class Arrows(unittest.TestCase):
-    """The rules, in small houses."""
+    """Tests the rules on small trees of files."""
 
     def faults_of(self, files):
         with tempfile.TemporaryDirectory() as folder:

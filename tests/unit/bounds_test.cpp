@@ -1,4 +1,4 @@
-// Boxes of scenes hold what they are to hold: the support of a positive field, the solid of a signed one.
+// Tests that the box of a scene holds the support of a positive field and the solid of a signed one.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -22,7 +22,7 @@ TEST(Bounds, HoldEveryPointWhereTheFieldMatters) {
   int inside = 0, beyond = 0, unbounded = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     v1::Scene message = test_support::random_scene(seed, {.nodes = 4 + static_cast<int>(seed % 40)});
-    // Roots of both laws: where the scene has a conversion, what it converts.
+    // Half of the scenes get a signed root: if the scene has a conversion, the root is what it converts.
     for (int i = 0; i < message.nodes_size() && seed % 2 == 0; ++i) {
       if (message.nodes(i).has_soften()) message.set_root(message.nodes(i).soften().child());
     }

@@ -39,7 +39,7 @@ TEST(BrickSet, GrowsAroundEveryMember) {
     const BrickSet grown = set.grown(below, above);
     for_each_place([&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
       bool expected = false;
-      // A member reaches `below` bricks down, so that one is looked for as far up.
+      // A member reaches `below` bricks down, so the loop looks for members as far up.
       for (std::uint32_t u = x - std::min(x, above); u <= x + below; ++u) {
         for (std::uint32_t v = y - std::min(y, above); v <= y + below; ++v) {
           for (std::uint32_t w = z - std::min(z, above); w <= z + below; ++w) expected |= set.contains(u, v, w);

@@ -20,7 +20,7 @@ blobtree::Tape tape_of(const std::string& nodes) {
 
 constexpr char kSphere[] = R"({"sphere": {"radius": 1, "range": 0.5}})";
 
-// A thousand rods in a box: thin parts in a wide scene.
+// Makes a thousand rods in a box: thin parts in a wide scene.
 blobtree::Tape rods() {
   test_support::Random random(5);
   std::string nodes, names;
@@ -54,7 +54,7 @@ TEST(CellSize, APrimitiveIsAsThickAsItIsWhereTheFieldIsIso) {
   // w(r) = (1 - r^2)^3 = 0.729 at r^2 = 0.1.
   const double r0 = std::sqrt(1 - std::cbrt(0.5)), inward = (r0 - std::sqrt(0.1)) / (1 - r0);
   EXPECT_NEAR(thickness(R"({"sphere": {"radius": 3, "range": 1}})", 0.729), 6 - 2 * inward, 1e-9);
-  // A sphere that has no surface there is not too thin: it is not there.
+  // A sphere without a surface at that iso value is not in the mesh, so it is not too thin.
   EXPECT_EQ(thickness(R"({"sphere": {"radius": 0.1, "range": 1}})", 0.729), 0);
 }
 
@@ -70,7 +70,7 @@ TEST(CellSize, TooThinIsWhatTheCellIsCoarserThan) {
   EXPECT_DOUBLE_EQ(one->thickness, 0.5);
   EXPECT_NEAR(one->cell_size, 0.5 / std::sqrt(3), 1e-5);
   EXPECT_EQ(too_thin(tape, {.cell_size = 0.6})->primitives, 2u);
-  // Outside of the bounds nothing matters.
+  // Parts outside of the bounds do not matter.
   MeshRequest bounded{.cell_size = 0.6, .bounds = blobtree::Box{{-2, -2, -2}, {3, 2, 2}}};
   EXPECT_FALSE(too_thin(tape, bounded));
 }
@@ -80,7 +80,7 @@ TEST(CellSize, IsTheThinnestPrimitivesRadiusOrWhatIsAdmitted) {
   EXPECT_DOUBLE_EQ(automatic_cell_size(sphere, {}).value(), 3.0 / kAutomaticCellsAlong * (1 + 1e-6));
   const blobtree::Tape wide = rods();
   EXPECT_DOUBLE_EQ(automatic_cell_size(wide, {}).value(), 0.4);
-  // A primitive that no lattice can follow: the cells use most of what is admitted.
+  // No lattice can follow this primitive, so the cells use most of what is admitted.
   const blobtree::Tape hair = tape_of(R"(
     {"sphere": {"radius": 1, "range": 0.5}}, {"sphere": {"center": [1, 0, 0], "radius": 1e-9, "range": 0.5}},
     {"sum": {"children": ["#0", "#1"]}})");
@@ -95,7 +95,7 @@ TEST(CellSize, IsTheThinnestPrimitivesRadiusOrWhatIsAdmitted) {
 
 struct Refusal {
   absl::Status status;
-  std::uint64_t visited = 0;  // cells that culling has visited, to 1,024
+  std::uint64_t visited = 0;  // cells that culling has visited, rounded to 1,024
 };
 Refusal refuse(const blobtree::Tape& tape, const MeshRequest& request) {
   Refusal r;
@@ -119,7 +119,7 @@ TEST(CellSize, ARefusalCostsNextToNothing) {
       MeshRequest request{.cell_size = cell};
       const Refusal refused = refuse(tape, request);
       ASSERT_EQ(refused.status.code(), absl::StatusCode::kResourceExhausted) << refused.status;
-      // To cull the half a million bricks that are admitted takes five times as many.
+      // Culling the half a million bricks that are admitted visits five times as many cells.
       EXPECT_LE(refused.visited, 300'000u) << refused.status;
       EXPECT_TRUE(
           absl::StartsWith(refused.status.message(), absl::StrCat("cell_size = ", cell, " takes more than the ")))
@@ -127,7 +127,7 @@ TEST(CellSize, ARefusalCostsNextToNothing) {
       EXPECT_TRUE(absl::StrContains(refused.status.message(),
                                     cell < least_cell_size(tape, request) ? "along an axis" : "in all"))
           << refused.status;
-      // The size that it states fits, and half of it does not.
+      // The size that the message states fits, and half of it does not.
       request.cell_size = last_number(refused.status);
       EXPECT_TRUE(refuse(tape, request).status.ok()) << refused.status;
       request.cell_size /= 2;

@@ -29,7 +29,7 @@ TEST(CodeSet, HoldsTwoHundredKinds) {
   EXPECT_FALSE(set.has(static_cast<Many>(63)));
 }
 
-// Two hundred of each: every code has a number, a word and a bit of its own.
+// With two hundred codes of each enum, every code still has a number, a word and a bit of its own.
 TEST(CodeTexts, HaveRoomForTwoHundredKinds) {
   std::vector<std::string> names;
   for (int i = 0; i < 200; ++i) names.push_back(absl::StrCat("kind", i));

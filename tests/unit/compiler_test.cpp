@@ -51,7 +51,7 @@ TEST(Compiler, TapesEvaluateLikeTheirScenes) {
 }
 
 TEST(Compiler, DeepSecondOperandsGoFirstAndDifferencesAreTurnedAround) {
-  // #0 - (#1 + (#2 - #3)): postfix without exchange would have values waiting.
+  // The scene is #0 - (#1 + (#2 - #3)). Postfix code without exchange would keep values waiting.
   const Scene scene = read_or_die(scene_of_nodes(kFour + R"({"difference": {"children": ["#2","#3"]}},
     {"sum": {"children": ["#1","#4"]}}, {"difference": {"children": ["#0","#5"]}})"));
   const Tape tape = compile_or_die(scene);
@@ -68,7 +68,7 @@ TEST(Compiler, ComplexOperandsOfADifferenceKeepTheirSides) {
 }
 
 TEST(Compiler, OpcodeSetsHoldWhatPruningMayMakeOfATape) {
-  // f - 0 with f > 1 is clamped by an instruction that the whole tape needs not hold (pruner.cpp).
+  // Pruning turns f - 0 with f > 1 into a clamping instruction that the whole tape need not hold (pruner.cpp).
   const Tape tape = compile_or_die(read_or_die(scene_of_nodes(kFour + R"({"sum": {"children": ["#1","#2"]}},
     {"difference": {"children": ["#0","#4"]}})")));
   EXPECT_TRUE(tape.codes.opcodes.has(operators::Opcode::kSubtractFrom));
@@ -99,7 +99,7 @@ TEST(Compiler, DisjointIntersectionHasNoSupport) {
   EXPECT_TRUE(tape.support.empty());
 }
 
-// Two spheres joined as told, below a transform.
+// Two spheres below a transform, joined by the operator `join`.
 Tape transformed(const std::string& join, const std::string& transform) {
   return compile_or_die(read_or_die(
       scene_of_nodes(R"({"sphere": {"radius": 0.5, "range": 0.5}},
@@ -116,7 +116,7 @@ TEST(Compiler, OnlyMapsThatChangeAnglesAboveBlendsThatFollowThemMakeFrames) {
   EXPECT_TRUE(has_frames(transformed(R"("gradient")", R"("matrix": [1,0.1,0,0, 0,1,0,0, 0,0,1,0])")));
   EXPECT_FALSE(has_frames(transformed(R"("gradient")", R"("scale": [2,2,-2], "rotation": [1,2,3,40])")));
   EXPECT_FALSE(has_frames(transformed(R"("sum")", R"("scale": [2,1,1])")));
-  // A primitive that is scaled below the blend has its gradient as it is.
+  // A scale below the blend leaves the blend's own gradients as they are, so it needs no frame.
   const Tape below = compile_or_die(read_or_die(scene_of_nodes(R"({"sphere": {"radius": 0.5, "range": 0.5}},
     {"transform": {"child": "#0", "scale": [2,1,1]}}, {"gradient": {"children": ["#0","#1"]}})")));
   EXPECT_FALSE(has_frames(below));
@@ -128,7 +128,7 @@ TEST(Compiler, NullGradientsAreMeasuredInTheUnitOfTheBlendsFrame) {
   EXPECT_DOUBLE_EQ(length(transformed(R"("gradient")", R"("scale": [3,1,1])")), 0.5);
 }
 
-// Full binary tree over 2^levels spheres.
+// Returns a full binary tree over 2^levels spheres.
 std::string full_tree(int levels) {
   std::string nodes;
   const int leaves = 1 << levels;
@@ -164,14 +164,14 @@ TEST(Compiler, NestedWeightsThatLeaveFloat32AreRefused) {
   EXPECT_NE(text.find("nodes[4]: its weights and those of blends below divide a field by 1e-12"), std::string::npos)
       << text;
   EXPECT_NE(text.find("at least 1e-09"), std::string::npos) << text;
-  // A field that is made positive is at most 1.
+  // A field that is made positive is at most 1, so the count of weights begins anew.
   nodes += R"(, {"soften": {"child": "#3", "range": 1}}, {"harden": {"child": "#5"}})";
   nodes += R"(, {"bt2": {"r1": 1, "r2": 1, "m1": 1e-3, "children": ["#6", "#0"]}})";
   EXPECT_TRUE(compile(test_support::read_or_die(test_support::scene_of_nodes(nodes))).ok());
 }
 
 TEST(Compiler, TooManyWaitingValuesAreRefused) {
-  // Third children are not put first: each level keeps one value waiting.
+  // The compiler does not put third children first, so each level keeps one value waiting.
   std::string nodes = kFour;
   for (int i = 0; i < 20; ++i) {
     absl::StrAppend(&nodes, R"({"max": {"children": ["#1","#2","#)", i == 0 ? 0 : 3 + i, R"("]}})", i < 19 ? "," : "");

@@ -13,7 +13,7 @@
 namespace isofield::engine {
 namespace {
 
-// Vertices on edges have the normal of one of their sides, as a field's gradient has.
+// Makes a cube whose vertices on edges have the normal of one of their sides, as a field's gradient has.
 Mesh cube(int n) {
   const test_support::CubeGrid grid = test_support::cube_grid(n);
   Mesh mesh{.triangles = grid.triangles};
@@ -26,7 +26,7 @@ Mesh cube(int n) {
   return mesh;
 }
 
-// The wedge of each corner; kNone where its vertex has none.
+// The wedge of each corner, or kNone if the corner's vertex has none.
 constexpr std::uint32_t kNone = ~0u;
 std::vector<std::uint32_t> wedges_of(const Mesh& mesh, const CreaseNormals& creases) {
   std::map<std::uint32_t, std::uint32_t> first;
@@ -48,7 +48,7 @@ TEST(CreaseNormals, OfACubeAreThoseOfItsSides) {
   for (const int n : {1, 8}) {
     const Mesh mesh = cube(n);
     const CreaseNormals creases = crease_normals(mesh);
-    // A wedge for each side at the 8 corners and within the 12 edges.
+    // The 8 corners and the vertices within the 12 edges have a wedge for each side.
     EXPECT_EQ(creases.vertices.size(), 8u * 3 + 12u * 2 * (n - 1));
     ASSERT_EQ(creases.normals.size(), 3 * creases.vertices.size());
     const std::vector<std::uint32_t> wedges = wedges_of(mesh, creases);
@@ -57,7 +57,7 @@ TEST(CreaseNormals, OfACubeAreThoseOfItsSides) {
       const int sides = (std::abs(p[0]) == 1) + (std::abs(p[1]) == 1) + (std::abs(p[2]) == 1);
       EXPECT_EQ(wedges[c] == kNone, sides == 1);
       if (wedges[c] == kNone) continue;
-      // The side that the triangle lies in.
+      // The loop finds the side that the triangle lies in.
       const std::size_t t = c / 3 * 3;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto at = [&](std::size_t i) { return mesh.positions[3 * std::size_t{mesh.triangles[t + i]} + axis]; };
@@ -102,14 +102,15 @@ Mesh torus(int around, int across) {
 
 TEST(CreaseNormals, CoarseCurvedSidesHaveNone) {
   EXPECT_TRUE(crease_normals(torus(40, 20)).vertices.empty());
-  // Its triangles turn by 45 degrees, which the normals tell from creases. Without them it would be cut.
+  // Neighbouring triangles turn by 45 degrees. The normals show that these are no creases; without normals the mesh
+  // would be cut.
   const Mesh coarse = torus(10, 8);
   EXPECT_TRUE(crease_normals(coarse).vertices.empty());
   EXPECT_GT(crease_wedges(coarse).vertices.size(), coarse.positions.size() / 3);
 }
 
-// A strip folded along its middle, whose triangles there turn by 5 degrees more and less in turn, as on curved sides.
-// The sides' normals are exact; along the fold they are those of either side, or the mean.
+// Makes a strip folded along its middle. The triangles there turn alternately by 5 degrees more and less than the fold,
+// as on curved sides. The sides' normals are exact; the normals along the fold are those of either side, or the mean.
 Mesh folded_strip(double degrees, int length, bool has_mean_normals) {
   const double half = degrees / 2 * std::numbers::pi / 180, lean = 2.5 * std::numbers::pi / 180;
   Mesh mesh;
@@ -135,9 +136,9 @@ Mesh folded_strip(double degrees, int length, bool has_mean_normals) {
 
 TEST(CreaseNormals, CreasesGoOnWhereTrianglesLean) {
   const int length = 20;
-  // At either end but one edge of the crease meets a vertex; the others have two wedges each.
+  // Only one edge of the crease meets a vertex at either end. The other vertices have two wedges each.
   EXPECT_EQ(crease_normals(folded_strip(27, length, false)).vertices.size(), 2u * (length - 1));
-  // The mean is what the mesher gives to sides that are to be shaded as one.
+  // The mesher gives mean normals to sides that are to be shaded as one.
   EXPECT_TRUE(crease_normals(folded_strip(24, length, true)).vertices.empty());
   EXPECT_TRUE(crease_normals(folded_strip(18, length, false)).vertices.empty());
 }

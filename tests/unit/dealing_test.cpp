@@ -32,7 +32,7 @@ TEST(Dealing, OneHandKeepsTheOrder) {
   EXPECT_EQ(jobs, numbers(500));
 }
 
-// Where each job costs as much as its place, as the work of neighbours does.
+// Each job costs as much as its place, because neighbouring jobs cost about the same in practice.
 TEST(Dealing, HandsCostTheSame) {
   for (const std::uint32_t hands : {2u, 4u, 16u}) {
     std::vector<int> jobs = numbers(16'000);

@@ -1,4 +1,4 @@
-// Trees that are far deeper, or nodes that are far wider, than the call stack would bear.
+// Tests trees that are far deeper, or nodes that are far wider, than a recursion on the call stack could handle.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -27,7 +27,7 @@ v1::Node sphere_node(double x) {
   return node;
 }
 
-// A chain of operators, each over one sphere and the chain below it.
+// Returns a chain of operators, each over one sphere and the chain below it.
 v1::Scene chain(int depth, bool left_deep, double spacing) {
   v1::Scene scene;
   *scene.add_nodes() = sphere_node(0);

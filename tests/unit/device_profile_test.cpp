@@ -1,4 +1,4 @@
-// What is derived from a device, on made-up ones.
+// Tests the numbers that are derived from a device, on made-up devices.
 #include "gpu/device_profile.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ DeviceProfile profile(const char* type, std::uint32_t subgroup_size, unsigned ho
   return profile_of({.type = type, .subgroup_size = subgroup_size, .max_buffer_bytes = 1u << 27}, host_threads);
 }
 
-// The numbers that lavapipe was measured with: whoever changes one measures anew.
+// These numbers were measured on lavapipe. Measure again before you change one.
 TEST(DeviceProfile, LavapipeKeepsItsNumbers) {
   const DeviceProfile p = profile("cpu", 8);
   EXPECT_EQ(p.submission_work, 1u << 21);
@@ -69,7 +69,7 @@ TEST(DeviceProfile, GpusTakeMoreAtOnce) {
   EXPECT_FALSE(profile("other", 32).maps_memory);
 }
 
-// The kernels of sorted points have workgroups of 64, and a dispatch has kMaxGroups of them.
+// The kernels of sorted points have workgroups of 64, and one dispatch has at most kMaxGroups workgroups.
 TEST(DeviceProfile, SlabsFitTheirDispatches) {
   for (const char* type : {"cpu", "integrated", "discrete", "virtual", "other"}) {
     for (const std::uint32_t size : {0u, 1u, 4u, 8u, 16u, 32u, 64u, 128u}) {

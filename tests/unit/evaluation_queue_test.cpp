@@ -1,4 +1,4 @@
-// What joins, and what goes first; on no device, and without time.
+// Tests which batches are joined and which go first. There is no device, and the clock is a variable.
 #include "engine/points/evaluation_queue.h"
 
 #include <gtest/gtest.h>
@@ -15,12 +15,12 @@ constexpr gpu::Deadline kNow = gpu::Deadline() + std::chrono::hours(1);
 constexpr gpu::DeviceProfile kProfile;
 constexpr gpu::Deadline kSoon = kNow + std::chrono::hours(1), kLater = kNow + std::chrono::hours(2);
 
-// Never looked into.
+// The queue never dereferences these scenes.
 SceneLease scene_number(std::uintptr_t n) {
   return {std::shared_ptr<const ResidentScene>(), reinterpret_cast<const ResidentScene*>(n * 64)};
 }
 
-// A queue before a device that another holds until release(). The field is the sum of a point's coordinates.
+// A queue before a device that another user holds until release(). The field is the sum of a point's coordinates.
 class Queue : public testing::Test {
  protected:
   struct Submission {
@@ -59,7 +59,7 @@ class Queue : public testing::Test {
     return outcome_;
   }
 
-  // Points of which each has the sum `value`.
+  // Makes a request for points whose coordinates each have the sum `value`.
   Request& request(float value, std::size_t points = 1, PointBatch batch = {}) {
     Request& r = *requests_.emplace_back(std::make_unique<Request>());
     for (std::size_t i = 0; i < points; ++i) r.xyz.insert(r.xyz.end(), {value, 0, 0});
@@ -70,11 +70,11 @@ class Queue : public testing::Test {
     r.batch.out = r.out;
     return r;
   }
-  // Sends it, and returns when it waits.
+  // Sends the request, and returns when it waits.
   Request& wait_with(Request& r) {
     const std::size_t before = queue_.waiting() + turns_.waiting();
     r.thread = std::thread([this, &r] { r.status = queue_.evaluate(r.batch); });
-    // The first small one waits in the queue, and its caller for the turn.
+    // The first small request waits in the queue, and its caller waits for the turn.
     while (queue_.waiting() + turns_.waiting() <= before) std::this_thread::yield();
     while (queue_.waiting() > 0 && turns_.waiting() == 0) std::this_thread::yield();
     return r;
@@ -85,7 +85,7 @@ class Queue : public testing::Test {
       if (r->thread.joinable()) r->thread.join();
     }
   }
-  // The first coordinates of a submission's points.
+  // Returns the first coordinates of a submission's points.
   std::vector<float> values(std::size_t submission) const {
     std::vector<float> all;
     for (std::size_t i = 0; i < submissions_.at(submission).xyz.size(); i += 3) {
@@ -99,7 +99,7 @@ class Queue : public testing::Test {
   gpu::Turns::Turn held_;
   absl::Status outcome_;
   std::atomic<bool> has_no_memory_ = false;
-  std::vector<Submission> submissions_;  // under the turn
+  std::vector<Submission> submissions_;  // only written under the turn
   std::vector<std::unique_ptr<Request>> requests_;
   EvaluationQueue queue_;
 };

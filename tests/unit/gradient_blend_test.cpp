@@ -66,7 +66,7 @@ TEST(GradientBlend, LiesBetweenTheMaximumAndTheWidestBlend) {
 }
 
 TEST(GradientBlend, KeepsRelativePrecisionForTinyFields) {
-  // At theta = 0 the operator is homogeneous of degree 1.
+  // The operator is homogeneous of degree 1 at theta = 0.
   const double unit = gradient_blend(1, 0.7, 0, {}).g;
   for (const double f : {1e-5, 1e-20, 1e-47, 1e-100, 1e-200}) {
     EXPECT_NEAR(gradient_blend(f, 0.7 * f, 0, {}).g / f, unit, 1e-12) << f;

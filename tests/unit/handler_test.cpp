@@ -1,4 +1,4 @@
-// What becomes of a handler's status, of its exceptions and of answers that are too large.
+// Tests how a call passes on a handler's status, its exceptions and answers that are too large.
 #include "rpc/handler.h"
 
 #include <absl/strings/match.h>

@@ -26,7 +26,7 @@ TEST(Intervals, OfGradientBlendsHoldAtEveryAngle) {
        {Silhouette{}, Silhouette{Silhouette::Kind::kBulge, 0.4}, Silhouette{Silhouette::Kind::kBulge, 1}}) {
     const Operation o = blend_of(silhouette);
     for (int n = 0; n < 3000; ++n) {
-      // Sums have fields above 1.
+      // Every fifth case has fields above 1, as sums do.
       const double scale = n % 5 == 0 ? 4 : 1;
       const auto interval = [&] {
         const double lo = random.chance(0.2) ? 0 : random.number(0, scale);
@@ -35,7 +35,7 @@ TEST(Intervals, OfGradientBlendsHoldAtEveryAngle) {
       const Interval a = interval(), b = interval();
       const Interval g = binary_interval(o.op, o, {}, a, b);
       for (int i = 0; i < 6; ++i) {
-        // Upper ends and the widest blend first.
+        // The first cases take the upper ends and the widest blend.
         const double f1 = i < 2 ? a.hi : random.number(a.lo, a.hi), f2 = i < 2 ? b.hi : random.number(b.lo, b.hi);
         const double theta = i == 0 ? 0 : random.number(0, std::numbers::pi / 4);
         const double value = operators::gradient_blend(f1, f2, theta, silhouette).g;
@@ -102,7 +102,7 @@ TEST(Intervals, AFunctionalBlendIsOneOperandWhereItsCurveHasEndedWith0) {
   EXPECT_EQ(lone_operand(o, difference, {1, 1.2}, {0, 2}), 0);
 }
 
-// Positive fields above 1, as sums have them.
+// The fields are positive and above 1, as those of sums can be.
 TEST(Intervals, OfIntersectionsOfFieldsAboveOneHold) {
   Random random(5);
   const Mode mode{operators::Form::kIntersection, false, false};

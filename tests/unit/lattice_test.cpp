@@ -61,7 +61,7 @@ TEST(Cull, DroppedBricksHoldNoSurface) {
     ASSERT_TRUE(list.ok());
     const auto bricks = by_place(*list);
     ASSERT_EQ(bricks.size(), list->bricks.size()) << "a brick is listed twice";
-    std::map<Place, std::pair<bool, bool>> sides;  // of dropped bricks: a point inside, a point outside
+    std::map<Place, std::pair<bool, bool>> sides;  // for dropped bricks: a point inside, a point outside
     TapeInterpreter interpreter(tape);
     for (int i = 0; i < 1500; ++i) {
       const dvec3 p = random_point(random);
@@ -84,8 +84,8 @@ TEST(Cull, DroppedBricksHoldNoSurface) {
 }
 
 TEST(Cull, BricksAroundEveryCrossingAreKept) {
-  // Crossings between two points that lie close together, by bisection: their brick must be there.
-  // Bricks so small that the field varies little within one: bounds that are off by a little show.
+  // Bisection finds a crossing between two points; the brick around it must be in the list. The bricks are so small
+  // that the field varies little within one, so bounds that are off by a little show.
   const Lattice fine{{-1.5, -1.5, -1.5}, {0.021, 0.02, 0.019}, {143, 150, 157}};
   int crossings = 0;
   for (std::uint64_t seed = 0; seed < 14; ++seed) {
@@ -127,7 +127,7 @@ TEST(Cull, DroppedBricksOfTheSupportHoldNoField) {
 }
 
 TEST(Cull, CappedLatticesKeepTheBoundaryOfWhatIsInside) {
-  // A ball that holds the whole lattice: its surface is nowhere, and with a cap at the boundary.
+  // The ball holds the whole lattice. It has no surface in it, but with a cap the lattice's boundary is a surface.
   const Tape tape =
       compile_or_die(read_or_die(test_support::scene_of_nodes(R"({"sphere": {"radius": 10, "range": 1}})")));
   const Lattice lattice{{-1, -1, -1}, {0.1, 0.1, 0.1}, {20, 12, 13}};  // 5, 3 and 4 bricks
@@ -181,7 +181,7 @@ TEST(Cull, LimitsAndCancellationAreObeyed) {
   EXPECT_EQ(cancelled.status().code(), absl::StatusCode::kCancelled);
 }
 
-// On threads the list is the same, brick by brick and instruction by instruction.
+// Culling on several threads gives the same list, brick by brick and instruction by instruction.
 TEST(Cull, ThreadsMakeTheSameList) {
   base::Workers workers(1);
   const Lattice fine{{-2, -2, -2}, {0.02, 0.022, 0.024}, {201, 183, 170}};

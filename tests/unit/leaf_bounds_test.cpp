@@ -16,7 +16,7 @@ using test_support::Random;
 using test_support::read_or_die;
 using test_support::scene_of_nodes;
 
-// The one leaf of a scene of one node.
+// Returns the one leaf of a scene of one node.
 Leaf leaf_of(const std::string& node) {
   return compile_or_die(read_or_die(scene_of_nodes(node))).leaves.at(0);
 }
@@ -29,7 +29,7 @@ TEST(LeafBounds, HoldAtRandomPointsOfRandomBoxes) {
     for (const Leaf& leaf : tape.leaves) {
       for (int n = 0; n < 4; ++n) {
         dvec3 centre = random.point(-1.6, 1.6);
-        // On the skeleton, where the distance has no gradient, too.
+        // Some boxes lie on the skeleton, where the distance has no gradient.
         if (leaf.operand == Operand::kSegment && n == 0) {
           const double along = std::get<shapes::Segment>(leaf.shape).length * random.number(-0.1, 1.1);
           centre = leaf.domain.anchor + leaf.domain.to_local.linear[2] * along;
@@ -39,7 +39,7 @@ TEST(LeafBounds, HoldAtRandomPointsOfRandomBoxes) {
         const CentredBox box(Box{centre - half, centre + half});
         const Interval bounds = distance_bounds(leaf, box);
         for (int i = 0; i < 16; ++i) {
-          // Corners are where the greatest distances lie.
+          // The greatest distances are at corners.
           const auto side = [&](int axis) { return i < 8 ? (i >> axis & 1) * 2.0 - 1 : random.number(-1, 1); };
           const dvec3 p = box.centre + dvec3{box.half.x * side(0), box.half.y * side(1), box.half.z * side(2)};
           ASSERT_GE(leaf.distance(p), bounds.lo) << "seed " << seed << " leaf " << leaf.node;
@@ -67,7 +67,7 @@ TEST(LeafBounds, OfSpheresAreReached) {
 }
 
 TEST(LeafBounds, OfRoundConesFollowTheirNormal) {
-  // Beside the cone of a tilt with sine 0.6, whose normal there is (0.8, 0, 0.6).
+  // The box lies beside a cone of a tilt with sine 0.6, whose normal there is (0.8, 0, 0.6).
   const Leaf leaf = leaf_of(R"({"segment": {"a": [0,0,0], "b": [0,0,10], "radius_a": 7, "radius_b": 1, "range": 1}})");
   const dvec3 p = dvec3{0, 0, 5} + dvec3{0.8, 0, 0.6} * 6.0;
   const double h = 0.01;

@@ -22,7 +22,7 @@ double field_of(const Leaf& leaf, const dvec3& p) {
   return soften(leaf.distance(p), leaf.range);
 }
 
-// A turn stretches by 1 but for rounding, which must not make the least length too short.
+// A rotation stretches by 1 up to rounding, and the rounding must not make the least length too short.
 TEST(LeafPlacer, TheLeastLengthIsAcceptedWhateverWayItIsTurned) {
   Random random(4);
   for (int i = 0; i < 200; ++i) {
@@ -68,7 +68,7 @@ TEST(LeafPlacer, NothingReachesBeyondTheSupport) {
 }
 
 TEST(LeafPlacer, SupportsAreTightForPlainShapes) {
-  // Each touches its box on both sides of every axis: just inside the box's faces there is a field.
+  // Each shape touches its box on both sides of every axis, so there is a field just inside of the box's faces.
   for (const char* text :
        {R"({"sphere": {"center": [1,2,3], "radius": 0.5, "range": 0.25}})",
         R"({"ellipsoid": {"semi_axes": [1,0.5,0.25], "range": 0.25}})",
@@ -118,7 +118,7 @@ TEST(LeafPlacer, SimilarPlacementsAreRigid) {
 }
 
 TEST(LeafPlacer, UniformScaleMayBeLargeOrSmall) {
-  // The lengths in the world are what counts: 2e-5 and 2e5.
+  // Only the lengths in the world count. They are 2e-5 and 2e5.
   for (const char* scale : {"1e-5", "1e5"}) {
     const auto scene = read_scene(scene_of_nodes(std::string(R"({"sphere": {"radius": 1, "range": 2}},
       {"transform": {"child": "#0", "scale": [)") +
@@ -144,11 +144,11 @@ TEST(LeafPlacer, LengthsThatLeaveTheirRangeAreRefused) {
       ball + R"({"transform": {"child": "ball", "scale": [1e-5]}}, {"transform": {"child": "#1", "scale": [1e-5]}})");
   expect_refused(ball +
                  R"({"transform": {"child": "ball", "scale": [1e5]}}, {"transform": {"child": "#1", "scale": [1e5]}})");
-  // The radius alone leaves it.
+  // Only the radius leaves its range.
   expect_refused(ball + R"({"transform": {"child": "ball", "scale": [1e7]}})");
   expect_refused(ball + R"({"transform": {"child": "ball", "translation": [9e8,0,0]}},
                            {"transform": {"child": "#1", "translation": [9e8,0,0]}})");
-  // A product of maps that each are well conditioned: stretches by 1e-10 along one oblique axis.
+  // Each map is well conditioned, but their product stretches by 1e-10 along one oblique axis.
   expect_refused(ball + R"({"transform": {"child": "ball", "rotation": [1,2,3,40], "scale": [1e-5,1,1]}},
                            {"transform": {"child": "#1", "scale": [1e-5,1,1], "rotation": [1,2,3,40]}},
                            {"transform": {"child": "#2", "rotation": [3,2,3,70], "scale": [1e-5,1,1]}})");
@@ -156,7 +156,7 @@ TEST(LeafPlacer, LengthsThatLeaveTheirRangeAreRefused) {
 
 TEST(LeafPlacer, ScalesThatASignedFieldCannotBeDividedByAreRefused) {
   const std::string ball = R"({"name": "ball", "sphere": {"radius": 1, "law": "SIGNED"}}, )";
-  // Products that leave the range, float32 and at last the numbers.
+  // The products leave the range, then float32, and at last the range of doubles.
   for (const char* factor : {"1e-6", "1e6"}) {
     std::string nodes = ball;
     for (int i = 0; i < 60; ++i) {

@@ -14,7 +14,7 @@ namespace {
 using test_support::compile_or_die;
 using test_support::read_or_die;
 
-// The kinds of a scene's nodes, with the root last.
+// Returns the kinds of a scene's nodes, with the root last.
 std::vector<v1::Node::KindCase> kinds_of(const v1::Scene& scene) {
   std::vector<v1::Node::KindCase> kinds;
   for (const v1::Node& node : scene.nodes()) kinds.push_back(node.kind_case());

@@ -104,7 +104,7 @@ TEST(MeshCheck, ADoubledTriangleCrowdsItsEdges) {
 }
 
 TEST(MeshCheck, TwoSolidsSharingAnEdgeCrowdIt) {
-  // A second tetrahedron on the other side of the edge 0-1.
+  // The second tetrahedron lies on the other side of the edge 0-1.
   Mesh mesh = tetrahedron();
   mesh.positions.insert(mesh.positions.end(), {0, -1, 0, 0, 0, -1});
   mesh.indices.insert(mesh.indices.end(), {0, 4, 1, 0, 1, 5, 0, 5, 4, 1, 4, 5});
@@ -116,7 +116,7 @@ TEST(MeshCheck, TwoSolidsSharingAnEdgeCrowdIt) {
 TEST(MeshCheck, TwoSolidsSharingAVertexPinchIt) {
   Mesh mesh = tetrahedron();
   mesh.positions.insert(mesh.positions.end(), {-1, 0, 0, 0, -1, 0, 0, 0, -1});
-  // The mirror image through vertex 0, turned to face outward.
+  // The second solid is the mirror image through vertex 0, turned to face outward.
   for (const std::uint32_t i : {0u, 1u, 2u, 0u, 3u, 1u, 0u, 2u, 3u, 1u, 3u, 2u}) {
     mesh.indices.push_back(i == 0 ? 0 : i + 3);
   }

@@ -8,7 +8,7 @@
 namespace isofield::rpc {
 namespace {
 
-// A ball of radius 1, whose field reaches to 2.
+// Returns a ball of radius 1, whose field reaches to 2.
 blobtree::Tape ball() {
   v1::Scene scene;
   v1::Sphere& sphere = *scene.add_nodes()->mutable_sphere();
@@ -21,7 +21,7 @@ TEST(EstimatedCells, FollowTheSurface) {
   const blobtree::Tape tape = ball();
   engine::MeshRequest request{.cell_size = 0.05};
   const auto coarse = static_cast<double>(estimated_cells(tape, request));
-  // The faces of a box of 80 cells, and what its alignment adds.
+  // The surface lies within the faces of a box of 80 cells along each edge; the alignment to bricks adds some.
   EXPECT_GE(coarse, 6.0 * 80 * 80);
   EXPECT_LE(coarse, 6.0 * 160 * 160);
   request.cell_size /= 4;

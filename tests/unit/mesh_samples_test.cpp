@@ -14,7 +14,8 @@ namespace {
 
 using Place = std::array<std::uint32_t, 3>;
 
-// Where the bricks lie whose own an octet's first and last four corners are, from the brick that has them.
+// The bricks that own the first and the last four corners of each octet that a brick does not own itself. They are
+// relative to the brick that has the octet.
 constexpr std::array<std::array<Place, 2>, kOctets - kOwnOctets> kOwners{{
     {{{1, 0, 0}, {1, 0, 0}}},
     {{{1, 0, 0}, {1, 0, 0}}},
@@ -41,7 +42,7 @@ TEST(MeshSamples, OctetsAreEvaluatedOrTakenOverFromTheirOwners) {
     const std::uint32_t first = total / 5, count = total / 2;
     const SlabOctets octets = slab_octets(brick_neighbours(bricks), first, count);
     ASSERT_EQ(octets.evaluated.size(), count);
-    std::map<Place, std::uint32_t> places;  // of the slab's bricks
+    std::map<Place, std::uint32_t> places;  // only the slab's bricks
     for (std::uint32_t b = 0; b < count; ++b) {
       const blobtree::Brick& at = bricks[first + b];
       places[{at.x, at.y, at.z}] = b;
@@ -65,7 +66,7 @@ TEST(MeshSamples, OctetsAreEvaluatedOrTakenOverFromTheirOwners) {
         const auto it = taken.find({b, octet});
         ASSERT_NE(it == taken.end(), (octets.evaluated[b] >> octet & 1) == 0) << "octet " << octet;
         if (it == taken.end()) {
-          // The last corner's owner may be there unseen, where the brick between is not.
+          // The last corner's owner may exist unseen, if the brick between them is missing.
           EXPECT_TRUE(!are_there || octet == kOctets - 1) << "octet " << octet;
           continue;
         }

@@ -12,7 +12,7 @@
 namespace isofield::engine {
 namespace {
 
-// Adds a cube of an edge of 2 * half around (x, 0, 0); facing inward where it is to be a void.
+// Adds a cube with edges of 2 * half around (x, 0, 0). It faces inward if it is a void.
 void add_cube(Mesh& mesh, double x, double half, bool is_void) {
   const test_support::CubeGrid grid = test_support::cube_grid(3);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size() / 3);
@@ -29,7 +29,8 @@ void add_cube(Mesh& mesh, double x, double half, bool is_void) {
   }
 }
 
-// A large body with a void in which a body with a void of its own floats, and a smaller body with a void beside it.
+// Makes a large body with a void, in which a body with a void of its own floats, and a smaller body with a void beside
+// it.
 Mesh nested() {
   Mesh mesh;
   add_cube(mesh, 20, 3, false);
@@ -80,7 +81,7 @@ TEST(MeshShells, WithoutAFilterAllStays) {
   EXPECT_TRUE(keep_shells({}, {.largest_body = true}, 0.1).mesh.triangles.empty());
 }
 
-// The cells of a mesh whose vertices all lie in one brick.
+// Returns the cells of a mesh whose vertices all lie in one brick.
 std::shared_ptr<const MeshCells> cells_of(const Mesh& mesh, std::uint32_t x) {
   auto cells = std::make_shared<MeshCells>();
   cells->positions = mesh.positions;
@@ -95,7 +96,7 @@ TEST(MeshShells, OfLessThanHalfACellsMeanThicknessAreSlivers) {
   const auto at = static_cast<std::ptrdiff_t>(mesh.positions.size());
   add_cube(mesh, 40, 1, false);
   for (auto z = at + 2; z < static_cast<std::ptrdiff_t>(mesh.positions.size()); z += 3) mesh.positions[z] *= 0.01f;
-  // A slab of 2 by 2 by 0.02, beside cubes of which the mean thickness is a third of the edge: 2/3 the least.
+  // The slab measures 2 by 2 by 0.02. The mean thickness of a cube is a third of its edge: 2/3 for the smallest cube.
   const auto slivers = [&](double cell) {
     const ShellCounts counts = count_shells({cells_of(mesh, 0)}, cell);
     return std::vector<std::uint64_t>{counts.sliver_bodies, counts.sliver_voids};

@@ -27,7 +27,7 @@ dvec3 at(const Mesh& mesh, std::uint32_t vertex) {
   return {p[0], p[1], p[2]};
 }
 
-// The surface of the cube [-1, 1]^3 in n squares along each edge; `move` says where its vertices go.
+// Makes the surface of the cube [-1, 1]^3 with n squares along each edge; `move` says where its vertices go.
 template <class Move>
 Mesh cube(int n, const Move& move) {
   const test_support::CubeGrid grid = test_support::cube_grid(n);
@@ -71,14 +71,14 @@ double distance_to_segment(const dvec3& p, const dvec3& a, const dvec3& b) {
   return length(p - a - (b - a) * t);
 }
 
-// Of p from all triangles, whichever way they face.
+// Returns the distance of p from all triangles, whichever way they face.
 double distance(const dvec3& p, const Mesh& mesh) {
   double least = 1e30;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
     const dvec3 a = at(mesh, mesh.triangles[t]), b = at(mesh, mesh.triangles[t + 1]),
                 c = at(mesh, mesh.triangles[t + 2]);
     least = std::min({least, distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
-    // Barycentric coordinates of p's foot.
+    // These are the barycentric coordinates of p's foot.
     const dvec3 u = b - a, v = c - a, w = p - a, n = cross(u, v);
     const double area2 = dot(n, n), beta = dot(cross(w, v), n) / area2, gamma = dot(cross(u, w), n) / area2;
     if (beta >= 0 && gamma >= 0 && beta + gamma <= 1) least = std::min(least, std::abs(dot(w, n)) / std::sqrt(area2));
@@ -86,7 +86,7 @@ double distance(const dvec3& p, const Mesh& mesh) {
   return least;
 }
 
-// All that simplify() promises, measured by trying every pair.
+// Checks all that simplify() promises, by trying every pair of a vertex and a triangle.
 Mesh expect_simplified(const Mesh& mesh, double error) {
   const absl::StatusOr<Mesh> simplified = simplify(mesh, error, {});
   EXPECT_TRUE(simplified.ok()) << simplified.status();
@@ -121,7 +121,7 @@ Mesh expect_simplified(const Mesh& mesh, double error) {
   std::cout << "error " << error << ": " << before.triangles << " triangles become " << after.triangles
             << "; vertices within " << worst << " of them, their middles within " << back << "\n";
   EXPECT_LE(worst, error * (1 + 1e-9));
-  EXPECT_LE(back, 1.2 * error);  // the middles are not among the points looked at
+  EXPECT_LE(back, 1.2 * error);  // the middles are not among the points that simplify() looks at
   return *simplified;
 }
 
@@ -146,7 +146,7 @@ TEST(MeshSimplifier, KeepsTheCreasesOfACube) {
   const Mesh simplified = expect_simplified(mesh, 0.01);
   EXPECT_LT(simplified.triangles.size(), mesh.triangles.size() / 10);
   EXPECT_NEAR(check_mesh(simplified.positions, simplified.triangles).volume, 8, 1e-6);
-  // Where triangles of two sides meet, both ends lie on the cube's edge.
+  // If triangles of two sides meet, both ends of their edge lie on the cube's edge.
   std::size_t corners = 0;
   for (std::uint32_t v = 0; v < simplified.positions.size() / 3; ++v) {
     const dvec3 p = at(simplified, v);
@@ -162,7 +162,7 @@ TEST(MeshSimplifier, KeepsTheCreasesOfACube) {
 }
 
 TEST(MeshSimplifier, KeepsHandlesOfThinParts) {
-  // Up to errors beyond the thickness, which would close or part it.
+  // The errors go beyond the thickness, where a simplification without checks would close or part the torus.
   for (const double error : {1e-3, 0.02, 0.05, 0.2, 3.0}) expect_simplified(torus(90, 8, 0.05), error);
 }
 

@@ -47,7 +47,7 @@ TEST(Opening, TurnedIsTheSameSeenFromTheOtherEnd) {
   }
 }
 
-// A small exponent raises kappa's smallest values to visible ones: they must be right to the last bits, not absolutely.
+// A small exponent raises kappa's smallest values to visible ones, so they must have a small relative error.
 TEST(Opening, SmallSlopesStayContinuousAtTheMiddle) {
   Opening o = camel();
   o.w0 = o.w1 = 0.05;

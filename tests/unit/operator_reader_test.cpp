@@ -1,4 +1,4 @@
-// What operators of messages are refused for, and what becomes of those that are accepted.
+// Tests why operators of messages are refused, and what accepted ones become.
 #include "blobtree/scene/operator_reader.h"
 
 #include <absl/strings/str_cat.h>
@@ -59,7 +59,7 @@ TEST(OperatorReader, SampledOpeningsAreCurvesThroughTheirSamples) {
   EXPECT_NEAR(o.theta_min(), 0, 1e-12);
   EXPECT_EQ(o.theta(0).d1, 0);
   EXPECT_EQ(o.theta(180 * degree).d1, 0);
-  // Monotone between samples.
+  // The curve is monotone between samples.
   for (double a = 90; a < 180; a += 1) EXPECT_LE(o.theta(a * degree).v, o.theta((a + 1) * degree).v + 1e-15);
   message.mutable_gradient()->mutable_opening()->add_samples(46);
   expect_refused(message, {"opening.samples[5] = 46", "[0, 45]"});
@@ -183,7 +183,7 @@ TEST(OperatorReader, MixedLawsAreRefusedWithThePathOfTheNode) {
   refused(balls + R"({"custom": {"children": ["p", "p"], "operator": "mine"}}])",
           {"operator = 'mine'", "custom operator"});
   refused(balls + R"({"clean": {"children": ["p"], "form": "DIFFERENCE"}}])", {"[1 child]", "at least 2"});
-  // A transform has the law of its child, so a scene of signed nodes throughout is fine.
+  // A transform has the law of its child, so a scene with only signed nodes below the soften is accepted.
   EXPECT_TRUE(read_scene(scene_of_nodes(balls + R"({"name": "t", "transform": {"child": "s", "scale": [2]}},
       {"name": "d", "difference": {"children": ["t", "s"]}}, {"soften": {"child": "d", "range": 1}}])"))
                   .ok());
@@ -197,7 +197,7 @@ TEST(OperatorReader, ASceneUsesFourVolumesAtMost) {
   int i = 0;
   for (const char* volume : {"16", "32", "64", "128", "16"}) nodes += blend(i++, volume);
   const std::string sum = R"({"sum": {"children": ["v0", "v1"]}}])";
-  EXPECT_TRUE(read_scene(scene_of_nodes(nodes + sum)).ok());  // equal ones are one
+  EXPECT_TRUE(read_scene(scene_of_nodes(nodes + sum)).ok());  // equal volumes count once
   nodes += blend(i, R"(16, "silhouette": {"kind": "BULGE", "k": 0.5})");
   const auto scene = read_scene(scene_of_nodes(nodes + sum));
   ASSERT_FALSE(scene.ok());

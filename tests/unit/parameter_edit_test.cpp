@@ -1,4 +1,4 @@
-// Edits find fields by their names in the .proto file and in JSON; errors list the fields there are.
+// Tests that edits find fields by their names in the .proto file and in JSON, and that errors list the existing fields.
 #include "blobtree/scene/parameter_edit.h"
 
 #include <gtest/gtest.h>

@@ -27,7 +27,7 @@ dvec3 point_at(const std::vector<float>& xyz, std::size_t i) {
   return {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
 }
 
-// Every point is in exactly one group, whose tape gives its field.
+// Checks that every point is in exactly one group, whose tape gives its field.
 void expect_covers(const Scene& scene, const std::vector<float>& xyz) {
   const Tape tape = compile_or_die(scene);
   const reference::Evaluator evaluator(scene);
@@ -72,7 +72,7 @@ TEST(PointBins, CoverEqualPointsAndPointsOnALine) {
   for (int i = 0; i < 1000; ++i) {
     same.insert(same.end(), {0.25f, -0.5f, 0.125f});
     line.insert(line.end(), {-2 + 0.004f * i, 0.1f, 0.1f});
-    // Two values of each coordinate that no float lies between.
+    // Each coordinate has two values, and no float lies between them.
     for (int bit = 0; bit < 3; ++bit) neighbours.push_back((i >> bit & 1) != 0 ? 0.25f : 0.25f - 0x1p-26f);
   }
   expect_covers(scene, same);
@@ -80,7 +80,7 @@ TEST(PointBins, CoverEqualPointsAndPointsOnALine) {
   expect_covers(scene, neighbours);
 }
 
-// As shared memory may hold them, whatever was found there before.
+// Shared memory may hold such numbers even after a check, because the client can change them.
 TEST(PointBins, AndPointGridEndWhereNumbersAreNotFinite) {
   const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<std::vector<float>> choices{
@@ -101,7 +101,7 @@ TEST(PointBins, AndPointGridEndWhereNumbersAreNotFinite) {
         for (std::uint32_t n = g.first; n < g.first + g.count; ++n) ++seen[bins.points[n].place];
       }
       EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 1000);
-      if (!grid.ok()) continue;  // of a scene without end
+      if (!grid.ok()) continue;  // the scene has no end
       ++grids;
       EXPECT_EQ(grid->sort(xyz).starts.back(), 1000u);
     }
@@ -115,7 +115,7 @@ TEST(PointBins, AnEmptyBatchHasNoGroups) {
 }
 
 TEST(PointBins, PointsOfALargeSceneGetShortTapes) {
-  // 20^3 spheres that touch their neighbours alone.
+  // The scene has 20^3 spheres, each of which touches only its neighbours.
   v1::Scene message;
   v1::Node all;
   for (int i = 0; i < 8000; ++i) {

@@ -19,7 +19,7 @@ using test_support::Random;
 using test_support::read_or_die;
 using test_support::TapeInterpreter;
 
-// Points about the scene's support, and on the planes between the grid's bricks as nearly as can be.
+// Returns points about the scene's support, some of them as near as possible to the planes between the grid's bricks.
 std::vector<float> points_about(const Box& box, Random& random, std::size_t count) {
   std::vector<float> xyz;
   const auto along = [&](double low, double high) {
@@ -91,7 +91,7 @@ TEST(PointGrid, IsNoneWhereMostPrimitivesOverlap) {
   EXPECT_EQ(PointGrid::make(tape, bricks, [] { return true; }).status().code(), absl::StatusCode::kCancelled);
 }
 
-// The grid takes the field to be 0 outside of it.
+// The grid assumes that the field is 0 outside of it.
 TEST(PointGrid, IsNoneOfASignedFieldOrOneWithoutAnEnd) {
   v1::Scene spheres;
   v1::Node least, sum;

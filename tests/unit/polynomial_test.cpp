@@ -10,7 +10,7 @@
 namespace isofield::operators {
 namespace {
 
-// Value and slope at s with coefficients and sums in float32, as on the device.
+// Evaluates the value and the slope at s with coefficients and sums in float32, as the device does.
 Curve evaluate(const Polynomial& p, float s) {
   float value = 0, slope = 0;
   for (std::size_t k = p.size(); k-- > 0;) value = value * s + static_cast<float>(p[k]);

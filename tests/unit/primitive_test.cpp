@@ -31,14 +31,14 @@ std::set<std::string> fields_of(const google::protobuf::Descriptor& message) {
   return names;
 }
 
-// A field that is added to the contract alone is noticed here, as it is by the compiler in the readers' switches.
+// The test notices a field that is added to the contract only, as the compiler does in the readers' switches.
 TEST(Tables, HaveARowForEveryFieldOfTheContract) {
   std::set<std::string> nodes{"custom", "transform", "soften", "harden"}, operators;
   for (const PrimitiveTraits& kind : kShapes) nodes.emplace(kind.name);
   for (const operators::Traits& kind : operators::kKinds) operators.emplace(kind.name);
   EXPECT_EQ(fields_of(*v1::Operator::descriptor()), operators);
   for (const std::string& name : operators) {
-    if (name != "sampled") nodes.insert(name);  // the catalogue's alone
+    if (name != "sampled") nodes.insert(name);  // only the operator catalog has it
   }
   EXPECT_EQ(fields_of(*v1::Node::descriptor()), nodes);
 }
@@ -54,7 +54,7 @@ Leaf leaf_of(const std::string& nodes) {
   return compile_or_die(read_or_die(scene_of_nodes(absl::StrCat("[", nodes, "]")))).leaves.at(0);
 }
 
-// Boxes of all sizes around and beyond the primitive.
+// The boxes have all sizes and lie around and beyond the primitive.
 TEST(Primitives, HoldTheirBoundsAndSupports) {
   for (const PrimitiveNode& primitive : test_support::primitive_nodes()) {
     for (const bool is_signed : {false, true}) {
@@ -89,7 +89,7 @@ TEST(HalfSpace, IsTheSideOfItsPlane) {
   const Leaf leaf = leaf_of(R"({"half_space": {"point": [1, 2, 3], "normal": [0, 0, -2], "range": 0.5}})");
   EXPECT_DOUBLE_EQ(leaf.distance({7, -5, 4}), -1);
   EXPECT_DOUBLE_EQ(leaf.distance({0, 0, 2.75}), 0.25);
-  // Its support ends at the plane alone, a range further out.
+  // The support ends only beyond the plane, one range further out.
   EXPECT_NEAR(leaf.support.min.z, 2.5, 1e-5);
   EXPECT_GE(leaf.support.max.z, base::kMaxCoordinate);
   EXPECT_FALSE(leaf.support.is_bounded());
@@ -106,7 +106,7 @@ TEST(HalfSpace, BoundsWhatItIsIntersectedWith) {
   EXPECT_FALSE(both.support.is_bounded());
 }
 
-// A stated point may lie anywhere in the plane: what the device is given is near the origin.
+// A stated point may lie anywhere in the plane. The device gets the point of the plane that is nearest to the origin.
 TEST(HalfSpace, IsAnchoredWhereItsPlaneIsNearest) {
   const Leaf leaf = leaf_of(R"({"half_space": {"point": [1e6, 1e6, -2000000], "normal": [1, 1, 1], "law": "SIGNED"}})");
   EXPECT_LT(length(leaf.domain.anchor), 1e-6);
@@ -129,8 +129,8 @@ TEST(HalfSpace, BoundsWhatItCutsInEitherOrder) {
   }
 }
 
-// The distance of a point of the half-plane of (rho, z) to the outline of a trapezoid, segment by segment; negative
-// inside.
+// Returns the distance of a point (rho, z) of the half-plane to the outline of a trapezoid, segment by segment. It is
+// negative inside.
 double distance_to_outline(const shapes::Cone& c, double rho, double z) {
   const double h = c.half_length;
   const double x[] = {0, c.radius_a, c.radius_b, 0}, y[] = {-h, -h, h, h};

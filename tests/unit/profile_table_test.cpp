@@ -16,11 +16,11 @@ namespace {
 
 struct Errors {
   double value = 0, slope = 0;
-  double bend = 0;  // the second derivative: of silhouettes alone
+  double bend = 0;  // the second derivative; for silhouettes only
 };
 
-// Largest errors of a table (coefficients in float32, evaluated in double); derivatives relative to 1 + their size,
-// since some are infinite.
+// Returns the largest errors of a table (coefficients in float32, evaluated in double). Errors of derivatives are
+// relative to 1 + their size, since some derivatives are infinite.
 Errors silhouette_errors(const std::string& name, const Silhouette& silhouette) {
   const ProfileTable table = silhouette_table(silhouette);
   EXPECT_EQ(table.size(), kSilhouetteCells + 1u);
@@ -30,7 +30,7 @@ Errors silhouette_errors(const std::string& name, const Silhouette& silhouette) 
   for (int i = 0; i < kSilhouetteCells; ++i) {
     const auto& c = table[i + 1];
     for (int n = 0; n <= 31; ++n) {
-      // Closer and closer to the fold.
+      // In the last cell the places come closer and closer to the fold.
       const double s = i + 1 == kSilhouetteCells ? 1 - std::pow(0.5, 0.5 * n) : (n + 0.5) / 32;
       const double z = (i + s) / kSilhouetteCells;
       const double value = c[0] + s * (c[1] + s * (c[2] + s * c[3]));
@@ -87,14 +87,14 @@ TEST(ProfileTable, GradingReachesBothEnds) {
   }
 }
 
-// tan(theta) of an opening at alpha, which is what its table holds, with its derivative.
+// Returns tan(theta) of an opening at alpha, which its table holds, with its derivative.
 Curve tangent_of(const Opening& o, double alpha) {
   const Curve theta = o.theta(alpha);
   const double t = std::tan(theta.v);
   return {t, (1 + t * t) * theta.d1, 0};
 }
 
-// An opening looked up as in shaders/lib/profiles.glsl, in double.
+// Looks up an opening as shaders/lib/profiles.glsl does, but in double.
 Curve look_up(const ProfileTable& table, double alpha) {
   const auto cubic = [&](std::size_t cell, double s, double per_unit) -> Curve {
     const auto& c = table[1 + cell];
@@ -118,7 +118,8 @@ Curve look_up(const ProfileTable& table, double alpha) {
   return cubic(number, place - octave * (1 + cell / per_octave), per_unit);
 }
 
-// Largest errors at `count` angles within [low, high]: of the slope, relative to the steepest there.
+// Returns the largest errors at `count` angles within [low, high]. The slope's error is relative to the steepest slope
+// there.
 Errors opening_errors(const Opening& o, double low, double high, int count = 5000) {
   const ProfileTable table = opening_table(o);
   Errors worst;
@@ -148,7 +149,7 @@ TEST(ProfileTable, OpeningsAreClose) {
   }
 }
 
-// Whatever the slopes, and however short the ramps.
+// The openings have slopes of all sizes, and short and long ramps.
 TEST(ProfileTable, SteepOpeningsAreClose) {
   Errors worst;
   for (const double w : {0.05, 0.099, 0.1, 0.3, 1.0, 3.0, 3.1, 8.0, 20.0}) {

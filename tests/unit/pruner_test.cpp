@@ -29,7 +29,7 @@ Box random_box(Random& random) {
 
 dvec3 random_point_in(Random& random, const Box& box) {
   const auto within = [&](double low, double high) {
-    const double at = random.number(-0.2, 1.2);  // corners and faces, too
+    const double at = random.number(-0.2, 1.2);  // some points lie on corners and faces
     return low + (high - low) * std::clamp(at, 0.0, 1.0);
   };
   return {within(box.min.x, box.max.x), within(box.min.y, box.max.y), within(box.min.z, box.max.z)};
@@ -40,7 +40,8 @@ struct Totals {
   int empty = 0, boxes = 0;
 };
 
-// Bounds hold and the pruned code gives the same bits at random points of random boxes; pruning it again does, too.
+// Checks that bounds hold, and that pruned code gives the same bits at random points of random boxes. Pruned code that
+// is pruned again must give them, too.
 void check_scene(std::uint64_t seed, const Scene& scene, Totals& totals) {
   const Tape tape = compile_or_die(scene);
   const reference::Evaluator evaluator(scene);
@@ -90,7 +91,7 @@ TEST(Pruner, BoundsHoldAndPrunedTapesGiveTheSameBits) {
   EXPECT_LT(totals.pruned * 2, totals.whole);
 }
 
-// Sums, maxima and gradient blends of every opening and silhouette, nested.
+// The scenes nest sums, maxima and gradient blends of every opening and silhouette.
 TEST(Pruner, BoundsOfGradientBlendsHold) {
   Totals totals;
   for (std::uint64_t seed = 1000; seed < 1150; ++seed) {

@@ -1,4 +1,4 @@
-// Texts that clients send appear in errors readable, short and valid in a status.
+// Tests that texts from clients appear in errors as readable, short texts that are valid in a status.
 #include "base/quoted.h"
 
 #include <gtest/gtest.h>
@@ -25,10 +25,10 @@ TEST(Quoted, ControlCharactersAreEscaped) {
 TEST(Quoted, BytesThatAreNoUtf8AreEscaped) {
   for (const auto& [bytes, shown] : {std::pair{"\xff", "'\\xff'"},
                                      {"a\x80z", "'a\\x80z'"},
-                                     {"\xc3", "'\\xc3'"},                            // cut
+                                     {"\xc3", "'\\xc3'"},                            // cut off
                                      {"\xc3(", "'\\xc3('"},                          // not continued
-                                     {"\xc0\xaf", "'\\xc0\\xaf'"},                   // longer than need be
-                                     {"\xe0\x80\xaf", "'\\xe0\\x80\\xaf'"},          // the same
+                                     {"\xc0\xaf", "'\\xc0\\xaf'"},                   // longer than necessary
+                                     {"\xe0\x80\xaf", "'\\xe0\\x80\\xaf'"},          // longer than necessary
                                      {"\xed\xa0\x80", "'\\xed\\xa0\\x80'"},          // half of a surrogate pair
                                      {"\xf4\x90\x80\x80", "'\\xf4\\x90\\x80\\x80'"}  // beyond Unicode
                                     }) {
@@ -54,7 +54,7 @@ TEST(Quoted, PrefixesEndWithAWholeCharacter) {
   EXPECT_EQ(base::utf8_prefix("🐟🐟", 7), "🐟");
 }
 
-// The bytes that gRPC makes of a message: one that is not plain ASCII takes three.
+// Returns the number of bytes that gRPC makes of a message: a character that is not plain ASCII takes three.
 std::size_t header_bytes(const std::string& message) {
   std::size_t bytes = 0;
   for (const unsigned char c : message) bytes += c < 0x20 || c > 0x7e || c == '%' ? 3 : 1;

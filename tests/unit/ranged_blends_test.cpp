@@ -1,4 +1,4 @@
-// The conic blend as the paper writes it, against the form that is free of cancellation.
+// Compares the conic blend as the paper writes it with the form that is free of cancellation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ struct Conic {
   Binary<double> at(double x1, double x2) const { return Bt2::blend<double>(x1, x2, {r1, m1}, {r2, m2}, tightness()); }
 };
 
-// [H] eq. 4: the root of the quadratic within its bracket.
+// Returns the root of the quadratic of [H] eq. 4 that lies within its bracket.
 long double root_of_quadratic(const Conic& k, long double x1, long double x2) {
   const long double r1 = k.r1, r2 = k.r2, m1 = k.m1, m2 = k.m2, p = k.p;
   const long double least = std::min(x1 / m1, x2 / m2);
@@ -43,9 +43,9 @@ TEST(Bt2, IsTheRootThatThePaperGives) {
   for (int n = 0; n < 20000; ++n) {
     const auto factor = [&] { return std::pow(10, random.number(-1, 1)); };
     Conic k{factor(), factor(), factor(), factor(), 0};
-    // From nearly the straight cut to nearly the union.
+    // The conics range from nearly the straight cut to nearly the union.
     k.p = k.r1 * k.r2 * (1 - std::pow(10, random.number(-4, 6)));
-    // Half of them within the region.
+    // Half of the points lie within the blended region.
     const double x2 = random.number(-2, 2), s = n % 2 == 0 ? random.number(0, 1) : random.number(-1, 2);
     const double x1 = k.m1 * ((x2 - k.r2) / k.m2 + s * (k.r1 / k.m1 + k.r2 / k.m2));
     const Binary<double> g = k.at(x1, x2);
@@ -53,10 +53,11 @@ TEST(Bt2, IsTheRootThatThePaperGives) {
     worst = std::max(worst, static_cast<double>(std::abs(g.g - root_of_quadratic(k, x1, x2))) / scale);
     if (g.g1 == 0 || g.g2 == 0) continue;
     ++blended;
-    // The level moves as the fields do: B(x + m h) = B(x) + h.
+    // The level moves as the fields do, B(x + m h) = B(x) + h.
     worst_partial = std::max(worst_partial, std::abs(g.g1 * k.m1 + g.g2 * k.m2 - 1));
     const double step = 1e-6 * k.r1, slope = (k.at(x1 + step, x2).g - k.at(x1 - step, x2).g) / (2 * step);
-    if (std::abs(k.at(x1 + step, x2).g1 - k.at(x1 - step, x2).g1) * k.m1 > 1e-4) continue;  // bends within the step
+    // the blend bends within the step
+    if (std::abs(k.at(x1 + step, x2).g1 - k.at(x1 - step, x2).g1) * k.m1 > 1e-4) continue;
     worst_partial = std::max(worst_partial, std::abs(g.g1 - slope) * k.m1);
   }
   std::printf("values off by %.2g, partials by %.2g; %d of them blended\n", worst, worst_partial, blended);

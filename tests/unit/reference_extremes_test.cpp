@@ -1,4 +1,4 @@
-// The reference evaluator at points and in scenes where something degenerates.
+// Tests the reference evaluator at points and in scenes where a primitive or an operator degenerates.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ void expect_finite(const Evaluator& e, const dvec3& p) {
   EXPECT_GE(s.field.v, 0);
 }
 
-// Centres, axes, medial surfaces, edges, and what is next to them.
+// Returns centres, points of axes, medial surfaces and edges, and points next to them.
 std::vector<dvec3> special_points() {
   std::vector<dvec3> points;
   const double places[] = {0, 1e-300, 1e-160, 1e-30, 1e-16, 1e-8, 0.25, 0.3, 0.5, 1, -0.5, -1e-9, 1e9, -1e200};
@@ -41,7 +41,7 @@ std::vector<dvec3> special_points() {
   return points;
 }
 
-// Ranges so large that no clamp hides the centres.
+// The ranges are so large that no clamp hides the centres.
 const char* const kPrimitives[] = {
     R"({"sphere": {"radius": 0.5, "range": 5}})",
     R"({"segment": {"a": [0,0,0], "b": [0,0,1], "radius_a": 0.5, "radius_b": 0.5, "range": 5}})",
@@ -79,7 +79,7 @@ TEST(ReferenceExtremes, BlendsOfAPrimitiveWithItselfAreFinite) {
   for (const char* primitive : kPrimitives) {
     for (const std::string blend : blends) {
       SCOPED_TRACE(std::string(primitive) + blend);
-      // f > 1 in the sum, identical operands, blends of blends.
+      // The scene has f > 1 in the sum, identical operands, and blends of blends.
       const std::string nodes = std::string(primitive) + ", {\"sum\": {\"children\": [\"#0\", \"#0\", \"#0\"]}}, {" +
                                 blend +
                                 R"("children": ["#0", "#0", "#1"]}}, {"gradient": {"children": ["#2", "#0", "#2"]}})";
@@ -90,17 +90,17 @@ TEST(ReferenceExtremes, BlendsOfAPrimitiveWithItselfAreFinite) {
 }
 
 TEST(ReferenceExtremes, AnglesOfZeroAndPiAreFinite) {
-  // Between two spheres on their common axis gradients are opposite; beyond either, parallel.
+  // Gradients are opposite between two spheres on their common axis, and parallel beyond either sphere.
   const Evaluator e(read_or_die(scene_of_nodes(R"({"sphere": {"center": [-0.5,0,0], "radius": 0.5, "range": 2}},
     {"sphere": {"center": [0.5,0,0], "radius": 0.5, "range": 2}}, {"gradient": {"children": ["#0","#1"]}})")));
   for (double x = -3; x <= 3; x += 0.01) {
     for (const double y : {0.0, 1e-300, 1e-17, 1e-9}) {
       expect_finite(e, {x, y, 0});
-      // Mirrored scene, mirrored field.
+      // The scene is symmetric, so the field is, too.
       EXPECT_NEAR(e.value({x, y, 0}), e.value({-x, y, 0}), 1e-12);
     }
   }
-  // Parallel gradients: a clean union by camel.
+  // Gradients are parallel here, and camel makes a clean union of them.
   EXPECT_NEAR(e.value({2, 0, 0}),
               Evaluator(read_or_die(scene_of_nodes(R"({"sphere": {"center": [0.5,0,0], "radius": 0.5, "range": 2}})")))
                   .value({2, 0, 0}),
@@ -117,7 +117,7 @@ TEST(ReferenceExtremes, OpposedDifferencesVanishExactly) {
 }
 
 TEST(ReferenceExtremes, NullGradientsOpenTheBlendSmoothly) {
-  // At each sphere's centre its gradient vanishes, and theta is the least of organic's: 0.
+  // The gradient of each sphere vanishes at its centre, and theta is the least of organic's angles there: 0.
   const std::string nodes = R"({"sphere": {"radius": 0.5, "range": 2}},
     {"sphere": {"center": [0.2,0,0], "radius": 0.5, "range": 2}},
     {"gradient": {"children": ["#0","#1"], "opening": {"preset": "ORGANIC"}}})";

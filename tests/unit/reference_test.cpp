@@ -30,8 +30,7 @@ struct Tally {
   double worst = 0;
 };
 
-// Compares the gradient with differences of the field where those settle, and the steering vector's Jacobian with
-// differences of the steering vector.
+// Compares the gradient with differences of the field, at points where the differences settle.
 void check_derivatives(const Evaluator& e, const dvec3& p, Tally& tally) {
   const Sample sample = e.evaluate(p);
   if (sample.value == 0) {
@@ -53,7 +52,7 @@ void check_derivatives(const Evaluator& e, const dvec3& p, Tally& tally) {
   if (error < 1e-5) {
     tally.worst = std::max(tally.worst, error);
   } else {
-    ++tally.off;  // a crease that the differences step over alike on both sides seems settled
+    ++tally.off;  // differences seem to settle at a crease if they step over it alike on both sides
   }
 }
 
@@ -88,7 +87,8 @@ TEST(Reference, GradientIsTheDerivativeOfLargeScenes) {
 }
 
 TEST(Reference, TheTermOfThetaMatters) {
-  // A camel blend of two cylinders that cross: leaving out g_theta grad theta must show (operators note, 2.2).
+  // The scene is a camel blend of two crossing cylinders, where leaving out g_theta grad theta must show (operators
+  // note, 2.2).
   const Evaluator e = evaluator_of(R"({"cylinder": {"a": [-2,0,0], "b": [2,0,0], "radius": 0.4, "range": 0.5}},
     {"cylinder": {"a": [0,-2,0.3], "b": [0,2,0.3], "radius": 0.4, "range": 0.5}}, {"gradient": {"children": ["#0", "#1"]}})");
   Random random(7);
@@ -195,13 +195,13 @@ TEST(Reference, NaryOperatorsFoldInOrder) {
     Random random(10);
     for (int i = 0; i < 300; ++i) {
       const dvec3 p = random.point(-1.2, 1.2);
-      // The largest range is that of the first child, so that both measure gradients alike.
+      // The largest range is that of the first child, so both scenes measure gradients alike.
       EXPECT_EQ(flat.value(p), nested.value(p)) << kind;
     }
   }
 }
 
-// Sums are above 1. The union of complements is the greatest of them where one is not positive.
+// Sums are above 1. If a complement is not positive, the union of complements is their greatest one.
 TEST(Reference, IntersectionsOfFieldsAboveOneAreTheLeast) {
   for (const std::string kind : {"clean", "gradient", "barthe", "bernhardt"}) {
     SCOPED_TRACE(kind);
@@ -222,7 +222,7 @@ TEST(Reference, IntersectionsOfFieldsAboveOneAreTheLeast) {
         EXPECT_DOUBLE_EQ(e->value({x, 0, 0}), 2 * s.value);
         EXPECT_NEAR(e->evaluate({x, 0, 0}).gradient.x, 2 * s.gradient.x, 1e-12);
       }
-      // The complement of the first is negative: the maximum is the second.
+      // The complement of the first operand is negative, so the maximum is the second.
       EXPECT_DOUBLE_EQ(less.value({x, 0, 0}), 1 - s.value);
       EXPECT_DOUBLE_EQ(less.evaluate({x, 0, 0}).gradient.x, -s.gradient.x);
     }
@@ -242,7 +242,7 @@ TEST(Reference, TransformsMoveTheField) {
     const dvec3 world{1 - p.y, 2 + 2 * p.x, 3 + 0.5 * p.z};
     EXPECT_NEAR(placed.value(world), plain.value(p), 1e-12);
     EXPECT_NEAR(matrix.value(world), plain.value(p), 1e-12);
-    // Gradients go by the inverse transpose.
+    // A transform moves gradients by its inverse transpose.
     const dvec3 g = plain.evaluate(p).gradient, h = placed.evaluate(world).gradient;
     EXPECT_NEAR(h.x, -g.y, 1e-9);
     EXPECT_NEAR(h.y, g.x / 2, 1e-9);

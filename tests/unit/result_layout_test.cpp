@@ -7,7 +7,7 @@
 namespace isofield::engine {
 namespace {
 
-// The table's places are the quantities' numbers: first() relies on it.
+// The place of a row in the table is the number of its quantity, and first() relies on it.
 TEST(ResultLayout, TheTableIsInTheOrderOfTheQuantities) {
   for (std::size_t i = 0; i < kQuantities.size(); ++i) EXPECT_EQ(static_cast<std::size_t>(kQuantities[i].quantity), i);
 }

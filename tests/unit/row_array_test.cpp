@@ -1,4 +1,4 @@
-// Requests may have arrays as plain numbers.
+// Tests arrays in requests and answers that are plain numbers instead of bytes.
 #include <gtest/gtest.h>
 
 #include <limits>

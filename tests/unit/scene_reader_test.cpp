@@ -21,7 +21,7 @@ const std::string kBall = R"({"name": "ball", "sphere": {"radius": 1, "range": 1
 struct Refusal {
   const char* what;
   std::string nodes;
-  // All must appear: the node, the field, the value, what is expected.
+  // All of these must appear in the error: the node, the field, the value, what is expected.
   std::vector<std::string> parts;
 
   friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.what; }
@@ -217,7 +217,7 @@ TEST(SceneReader, TooManyNodesAreRefused) {
 }
 
 TEST(SceneReader, SharedNodesCountAtEveryUse) {
-  // Doubled 60 times: 2^60 primitives from 61 nodes.
+  // The sphere is doubled 60 times, so 61 nodes stand for 2^60 primitives.
   std::string nodes = kBall;
   for (int i = 0; i < 60; ++i) {
     absl::StrAppend(&nodes, R"(, {"sum": {"children": ["#)", i, R"(", "#)", i, R"("]}})");
@@ -225,7 +225,7 @@ TEST(SceneReader, SharedNodesCountAtEveryUse) {
   expect_refused(scene_of_nodes(nodes), {"nodes[20]", "1048576 primitives", "at most 1000000"});
   expect_refused(scene_of_nodes(over_ball("sum", R"("children": ["ball","ball","ball"])")),
                  {"'op'", "3 primitives", "at most 2"}, {.max_primitives = 2});
-  // Operators without end over few primitives are counted, too.
+  // Many operators over few primitives are counted, too.
   nodes = kBall;
   for (int i = 0; i < 20; ++i) absl::StrAppend(&nodes, R"(, {"sum": {"children": ["#)", i, R"("]}})");
   expect_refused(scene_of_nodes(nodes), {"nodes once shared"}, {.max_primitives = 2});

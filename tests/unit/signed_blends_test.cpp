@@ -9,15 +9,15 @@
 namespace isofield::operators {
 namespace {
 
-// [G] eq. 6, min(x1, x2) - H(|x1 - x2|), at differences where H is known.
+// The test compares [G] eq. 6, min(x1, x2) - H(|x1 - x2|), at differences where H is known.
 TEST(FunctionalBlend, TakesTheCurveOfTheDifferenceFromTheLesserField) {
   const Functional blend{SampledCurve({0.1, 0.4, 1}, {0.5, 0.2, 0.05})};
   for (const double x : {-3.0, -0.2, 0.0, 0.7}) {
-    EXPECT_DOUBLE_EQ(blend.unite(x, x).g, x - 0.5);  // constant before the first control point
+    EXPECT_DOUBLE_EQ(blend.unite(x, x).g, x - 0.5);  // the curve is constant before the first control point
     EXPECT_DOUBLE_EQ(blend.unite(x, x + 0.05).g, x - 0.5);
     EXPECT_NEAR(blend.unite(x, x + 0.4).g, x - 0.2, 1e-15);
     EXPECT_NEAR(blend.unite(x + 0.4, x).g, x - 0.2, 1e-15);
-    EXPECT_DOUBLE_EQ(blend.unite(x, x + 7).g, x - 0.05);  // and beyond the last
+    EXPECT_DOUBLE_EQ(blend.unite(x, x + 7).g, x - 0.05);  // and beyond the last one
     EXPECT_EQ(blend.unite(x, x + 7).g1, 1);
     EXPECT_EQ(blend.unite(x, x + 7).g2, 0);
   }
@@ -36,7 +36,7 @@ TEST(FunctionalBlend, IsSymmetricAndHasItsPartials) {
     const double slope1 = (blend.unite(x1 + step, x2).g - blend.unite(x1 - step, x2).g) / (2 * step);
     EXPECT_NEAR(b.g1, slope1, 2e-5);
   }
-  // Where the fields are equal the partials are one side's.
+  // If the fields are equal, the partials are those of one side.
   const Binary<double> tie = blend.unite(0.3, 0.3);
   EXPECT_EQ(std::max(tie.g1, tie.g2), 1);
   EXPECT_EQ(std::min(tie.g1, tie.g2), 0);

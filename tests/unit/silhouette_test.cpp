@@ -49,7 +49,8 @@ TEST(Silhouette, PhiIsFiniteToTheEnds) {
 }
 
 TEST(Silhouette, SmoothOneMeetsTheDiagonalWhereThePaperSays) {
-  // s(pi/4) = sqrt(2) / q(1) = sqrt(2) phi(1). The note's 1.14025043 is right to 2e-7 only: its phi(1), to all digits.
+  // s(pi/4) = sqrt(2) / q(1) = sqrt(2) phi(1). The note's 1.14025043 is right to 2e-7 only, while its phi(1) is right
+  // to all digits.
   EXPECT_NEAR(std::numbers::sqrt2 / Silhouette{}.profile(1).v, std::numbers::sqrt2 * 0.80627872, 1e-8);
   EXPECT_NEAR(std::numbers::sqrt2 / Silhouette{}.profile(1).v, 1.14025043, 2e-7);
 }
@@ -57,7 +58,7 @@ TEST(Silhouette, SmoothOneMeetsTheDiagonalWhereThePaperSays) {
 TEST(Silhouette, ProfileLiesOnTheCurve) {
   for (const Silhouette& s : kSilhouettes) {
     for (double u = 0.02; u <= 1; u += 0.02) {
-      // M(a, b) = 1 at (x, y) = (u / q, 1 / q).
+      // M(a, b) = 1 holds at (x, y) = (u / q, 1 / q).
       const double q = s.profile(u).v, x = u / q, y = 1 / q;
       const double expected =
           s.kind == Kind::kSmooth ? 1 - smooth_step_e(x).v : 1 - s.k * std::exp(1 - 1 / x) * (1 - x);
@@ -70,7 +71,7 @@ TEST(Silhouette, ProfileStartsFlatAtOneExactly) {
   for (const Silhouette& s : kSilhouettes) {
     EXPECT_EQ(s.profile(0).v, 1);
     EXPECT_EQ(s.profile(0).d1, 0);
-    // Next to it, as close as E(0) = 2.6e-7 lets it.
+    // Next to 0 the profile is as close to 1 as E(0) = 2.6e-7 allows.
     EXPECT_NEAR(s.profile(1e-9).v, 1, 3e-7);
   }
 }

@@ -13,7 +13,7 @@
 namespace isofield::operators {
 namespace {
 
-// The form that shader programmers know: min(a, b) - max(k - |a - b|, 0)^2 / (4 k).
+// This is the form that shader programmers know: min(a, b) - max(k - |a - b|, 0)^2 / (4 k).
 double well_known(double a, double b, double k) {
   const double h = std::max(k - std::abs(a - b), 0.0);
   return std::min(a, b) - h * h / (4 * k);
@@ -51,13 +51,13 @@ TEST(SmoothMin, HoldsItsBounds) {
       if (alone >= 0) {
         ASSERT_EQ(g, alone == 0 ? x : y);
       }
-      // Where the result is at most r the lesser operand is within its reach.
+      // If the result is at most r, the lesser operand is at most r plus the reach.
       ASSERT_LE(std::min(x, y), g + op.reached(0).reach + 1e-12);
     }
   }
 }
 
-// What a device computes in float32 lies within the bounds too, where two terms cancel.
+// A device computes in float32. Its results lie within the bounds, too, even where two terms cancel.
 TEST(SmoothMin, LeavesRoomForRounding) {
   for (const double radius : {0.01, 1.0, 1000.0}) {
     const SmoothMin op{radius};

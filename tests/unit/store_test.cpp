@@ -1,4 +1,4 @@
-// What every store does: conditions, quotas, versions, listing, and one step for each.
+// Tests what every store does: conditions, quotas, versions, listing, and that each operation is one step.
 #include "catalog/store.h"
 
 #include <absl/strings/str_cat.h>
@@ -25,7 +25,7 @@ class Text final : public Value {
   const std::string text_;
 };
 
-// One test for each implementation.
+// Each implementation of Store runs these tests.
 template <class Implementation>
 class StoreTest : public testing::Test {
  protected:
@@ -33,7 +33,7 @@ class StoreTest : public testing::Test {
                  const Quota& quota = {}, Kind kind = Kind::kScene) {
     return store_.put(kind, name, std::make_shared<const Text>(text), condition, quota).value();
   }
-  // "text of version v"; empty where there is nothing.
+  // Returns "text of version v", or an empty text if there is no such record.
   std::string at(const std::string& name, Kind kind = Kind::kScene) {
     const std::optional<Record> record = store_.get(kind, std::span(&name, 1)).value().front();
     return record ? absl::StrCat(record->value->serialized(), " of version ", record->version) : "";
@@ -122,7 +122,7 @@ TYPED_TEST(StoreTest, GetsSeveralNamesAtOneMoment) {
   std::atomic<bool> is_over = false;
   this->put("a", "0");
   this->put("b", "0");
-  // "a" is always put before "b".
+  // The writer always puts "a" before "b".
   std::thread writer([&] {
     for (int i = 1; i <= 2000; ++i) {
       this->put("a", std::to_string(i));
@@ -147,7 +147,7 @@ TYPED_TEST(StoreTest, OfManyConditionalPutsOneIsDone) {
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&] {
       for (std::uint64_t version = 1; version < 200; ++version) {
-        // Whoever is first puts the next version.
+        // The first thread puts the next version.
         if (this->put("a", "x", {.version = version}).outcome == Outcome::kDone) ++done;
         while (true) {
           const std::string name = "a";

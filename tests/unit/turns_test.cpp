@@ -1,4 +1,4 @@
-// The order in which work gets to the device.
+// Tests the order in which work gets to the device.
 #include "gpu/turns.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 const Deadline kSoon = Deadline() + std::chrono::hours(1), kLater = kSoon + std::chrono::hours(1);
 
-// Threads that ask for a turn one after the other while another holds it, and the order in which they get it.
+// Threads that ask for a turn one after the other while another user holds it, and the order in which they get it.
 class Line {
  public:
   Line() : held_(turns_.take({})) {}

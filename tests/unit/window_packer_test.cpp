@@ -15,7 +15,7 @@ using test_support::compile_or_die;
 using test_support::Random;
 using test_support::read_or_die;
 
-// `count` spheres and segments under one maximum.
+// Makes a scene of `count` spheres and segments under one maximum.
 Tape many_leaves(int count) {
   Random random(1);
   v1::Scene scene;
@@ -42,7 +42,7 @@ Tape many_leaves(int count) {
   return compile_or_die(read_or_die(scene));
 }
 
-// What the device reads of a window: its instructions, each with the records that it names.
+// Compares what the device reads of a window: its instructions, each with the records that it names.
 void expect_same(const Tape& tape, const ParameterBuffers& whole, const Instruction& original,
                  const std::vector<Float4>& data, const Window& window, std::uint32_t place) {
   Instruction packed;

@@ -18,7 +18,7 @@ TEST(Workers, EachIsDoneOnce) {
   }
 }
 
-// Each waits for the other: on one thread this would not end.
+// Each call waits for the other, so this would not end on one thread.
 TEST(Workers, AreSpreadOverThreads) {
   base::Workers workers(1);
   std::latch both(2);

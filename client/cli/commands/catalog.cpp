@@ -63,7 +63,7 @@ absl::Status show(const Context& context, const std::string& name) {
   return absl::OkStatus();
 }
 
-// "NODE.FIELD=v[,v..]"; a node's name has no dot.
+// Parses "NODE.FIELD=v[,v..]". The first dot ends the node, since a node's name has no dot.
 absl::Status parse_edit(const std::string& text, v1::ParameterEdit& edit) {
   const std::size_t equals = text.rfind('=');
   const std::size_t dot = text.find('.');

@@ -11,16 +11,17 @@
 
 namespace isofield {
 
-// The columns of a listing. A width in characters is negative where texts begin at the left, as printf() has it.
+// A column of a listing. The width is in characters; it is negative for texts aligned to the left, as in printf().
 struct ListingColumn {
   const char* name;
   int width;
 };
 
-// A catalogue of the server, as its commands show it. `Summary` is the message that describes an entry.
+// Says how the commands list, change and remove the entries of one of the server's catalogues, scenes or operators.
+// `Summary` is the message that describes an entry.
 template <class Summary>
 struct Catalog {
-  const char* json_name;  // of the list of entries
+  const char* json_name;  // the key of the list of entries in JSON
   absl::StatusOr<std::vector<Summary>> (Client::*list)();
   absl::Status (Client::*remove)(const std::string& name);
   std::string (*describe)(const Summary& summary);  // on one line
@@ -28,12 +29,13 @@ struct Catalog {
   std::vector<std::string> (*row)(const Summary& summary);
 };
 
-// Prints a line of names and one for each row; nothing where there are no rows.
+// Prints a line with the names of the columns and a line for each row; prints nothing if there are no rows.
 void print_listing(const std::vector<ListingColumn>& columns, const std::vector<std::vector<std::string>>& rows);
 
 // Prints that an entry is deleted.
 void print_deleted(const Context& context, const std::string& name);
 
+// Asks the server for all entries and prints them.
 template <class Summary>
 absl::Status list_catalog(const Context& context, const Catalog<Summary>& catalog) {
   auto client = context.connect();
@@ -52,6 +54,7 @@ absl::Status list_catalog(const Context& context, const Catalog<Summary>& catalo
   return absl::OkStatus();
 }
 
+// Deletes an entry of the server and says so.
 template <class Summary>
 absl::Status remove_entry(const Context& context, const Catalog<Summary>& catalog, const std::string& name) {
   auto client = context.connect();

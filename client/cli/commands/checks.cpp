@@ -12,7 +12,7 @@
 namespace isofield {
 namespace {
 
-// A check for finite numbers that `accepts` is true for. --help prints `range`, errors print `expected`.
+// Makes a check for finite numbers for which `accepts` is true. --help prints `range`, errors print `expected`.
 Check number_that(const std::string& expected, const std::string& range, const std::function<bool(double)>& accepts) {
   return {[=](const std::string& text) -> std::string {
             double value = 0;

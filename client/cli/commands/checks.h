@@ -6,7 +6,7 @@
 
 namespace isofield {
 
-// Checks for options and arguments, whose errors say what is expected. CLI11's own checks accept NaN and "5x" as
+// These checks of options and arguments say in their errors what is expected. CLI11's own checks accept NaN and "5x" as
 // numbers, and their messages print the greatest double.
 
 // Accepts finite numbers above 0.

@@ -10,19 +10,20 @@
 
 namespace isofield {
 
-// What all commands share: the global options, and where the chosen command leaves its outcome.
+// The state that all commands share: the global options, and the outcome that the chosen command leaves for main().
 struct Context {
   std::string server;
-  // Standard output is for machines: one JSON object.
+  // True if the standard output gets one JSON object, for machines, instead of text.
   bool json = false;
-  // Seconds, for every request; 0: the client's defaults.
+  // The time that each request may take, in seconds; 0 stands for the client's defaults.
   double timeout = 0;
   absl::Status outcome;
 
+  // Makes a client, which connects with its first request. An address that cannot be read is an error of usage.
   absl::StatusOr<Client> connect(bool shared_memory = false) const;
 };
 
-// Each adds its commands to the command line, and runs the chosen one when it is parsed.
+// Each function adds its commands to the command line. Parsing the command line runs the command that was chosen.
 void add_catalog_commands(Command app, Context& context);  // put, ls, show, rm, edit
 void add_import_command(Command app, Context& context);
 void add_eval_command(Command app, Context& context);

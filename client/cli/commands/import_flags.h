@@ -7,13 +7,13 @@
 
 namespace isofield {
 
-// The options of every command that may import a file on the fly.
+// The options that say how a file is imported. Every command that takes a file to import in place of a scene has them.
 struct ImportFlags {
   std::string op = "camel";
   ImportOptions options;
 
   void add_to(Command command);
-  // After parsing.
+  // Returns the options; valid after the command line was parsed.
   ImportOptions get() const;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMiB = 1 << 20;
 
-// The device, and the numbers that the server has chosen for it.
+// Prints the device, and the tuning numbers that the server has chosen for it.
 void print_device(const v1::DeviceInfo& device) {
   absl::PrintF("device   %s (%s)\n", device.name(), device.type());
   absl::PrintF("driver   %s; Vulkan %s\n", device.driver(), device.vulkan_version());

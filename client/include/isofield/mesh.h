@@ -1,3 +1,5 @@
+// Triangle meshes as the client returns them: plain arrays (Mesh), or the bricks of the lattice on which the server
+// made the mesh (BrickMesh).
 #pragma once
 
 #include <absl/status/status.h>
@@ -13,17 +15,18 @@
 
 namespace isofield {
 
-// A triangle mesh in model units; triangles are counter-clockwise seen from outside.
+// A triangle mesh in model units. The triangles are counter-clockwise seen from outside.
 struct Mesh {
-  // [n, 3] each: x, y, z; normals are unit vectors, empty where the request omitted them.
+  // Shape [n, 3] each. Normals are unit vectors; there are none if the request left them out.
   std::vector<float> positions;
   std::vector<float> normals;
-  // [m, 3]: vertex numbers.
+  // Shape [m, 3]: the numbers of the vertices, from 0.
   std::vector<std::uint32_t> triangles;
-  // Normals for the sides of creases, as v1::MeshCreases has them; empty unless the request asked for them.
+  // The normals of the sides of creases. The triangles around a vertex on a crease fall into wedges, and each wedge has
+  // a normal of its own (v1::MeshCreases). The arrays are empty unless the request asked for them.
   struct Creases {
-    std::vector<std::uint32_t> vertices;  // [w]: of each wedge
-    std::vector<float> normals;           // [w, 3]
+    std::vector<std::uint32_t> vertices;  // [w]: the vertex of each wedge
+    std::vector<float> normals;           // [w, 3]: the normal of each wedge
     std::vector<std::uint32_t> corners;   // [c, 2]: 3 t + i for corner i of triangle t, and its wedge
   };
   Creases creases;
@@ -33,40 +36,42 @@ struct Mesh {
   std::size_t triangle_count() const { return triangles.size() / 3; }
 };
 
-// A mesh by the bricks of its lattice (mesh_service.proto, MeshBricks): kept while bricks come and go, joined to plain
-// arrays where those are needed. One thread at a time.
+// A mesh as the bricks of its lattice (v1::MeshBricks in mesh_service.proto). Bricks can be added, replaced and
+// removed, and join() makes plain arrays of them. Only one thread at a time may use a BrickMesh.
 class BrickMesh {
  public:
-  // x, y, z in bricks from the lattice's origin.
+  // The x, y and z of a brick, counted in bricks from the origin of the lattice.
   using Place = std::array<std::uint32_t, 3>;
 
-  // Adds bricks, in place of those that are there.
-  // INTERNAL: the arrays do not fit the table of the bricks, or a corner names a vertex that its own brick has not, or
-  // a brick before the lattice's first; nothing is changed then.
+  // Adds bricks, and replaces those that are at the same places.
+  // INTERNAL: the arrays do not fit the table of the bricks, or a corner names a vertex that its own brick does not
+  // have, or a brick before the first one of the lattice. The mesh is then unchanged.
   absl::Status apply(const v1::MeshBricks& bricks);
-  // Adds the bricks of another part of the same mesh, in place of those that are there.
+  // Adds the bricks of another part of the same mesh, and replaces those that are at the same places.
   void add(const BrickMesh& part);
-  // Forgets bricks: UINT32, shape [n, 3], as in MeshUpdate.
-  // INTERNAL: not such an array, or one of them is not there; nothing is changed then.
+  // Removes bricks. `places` is a UINT32 array of shape [n, 3], as in v1::MeshUpdate.
+  // INTERNAL: it is no such array, or there is no brick at one of the places. The mesh is then unchanged.
   absl::Status remove(const v1::Tensor& places);
+  // Removes all bricks.
   void clear();
 
   std::size_t brick_count() const { return bricks_.size(); }
   std::size_t vertex_count() const { return vertices_; }
   std::size_t triangle_count() const { return triangles_; }
 
-  // The mesh, its vertices and triangles in the order of the bricks' places: of a whole mesh the arrays that
-  // Client::mesh returns, bit for bit. Of the summary, the counts are set.
-  // INTERNAL: a corner names a vertex that is not there (a part whose neighbours have not been added has such ones), or
-  // some vertices have normals and some have not.
+  // Joins the bricks to plain arrays, in the order of their places. For a whole mesh these are the arrays that
+  // Client::mesh() returns, bit for bit. Only the counts of the summary are set.
+  // INTERNAL: a corner names a vertex that is not there, as in a part of a mesh whose neighbours have not been added,
+  // or some vertices have normals and others have none.
   absl::StatusOr<Mesh> join() const;
 
  private:
-  // floor(z / 8), then the Morton code with z's bits above y's above x's.
+  // The order of the bricks in the joined mesh: by floor(z / 8), then by the Morton code with the bits of z above those
+  // of y above those of x.
   struct InOrder {
     bool operator()(const Place& a, const Place& b) const;
   };
-  // As in v1::MeshBricks.
+  // The arrays of one brick, as in v1::MeshBricks.
   struct Brick {
     std::vector<float> positions, normals;
     std::vector<std::uint32_t> corners;
@@ -78,10 +83,10 @@ class BrickMesh {
   std::size_t vertices_ = 0, triangles_ = 0;
 };
 
-// A mesh or a part of it, as a server made it.
+// A mesh, or a part of one, as a server made it.
 struct MeshedBricks {
   BrickMesh bricks;
-  // Counts are of the part.
+  // The counts are those of the part.
   v1::MeshSummary summary;
 };
 

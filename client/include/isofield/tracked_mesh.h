@@ -1,3 +1,4 @@
+// Meshes that a server keeps up to date while their scenes are edited.
 #pragma once
 
 #include <absl/status/status.h>
@@ -14,38 +15,41 @@
 
 namespace isofield {
 
-// What an answer changed in a mesh that is tracked.
+// The changes that one answer of the server made to a tracked mesh.
 struct MeshChanges {
-  // All that was known is void: the answer is the mesh.
+  // True where the answer is the whole mesh, which replaces all that was known.
   bool is_whole = false;
-  // Bricks that are new, or in place of those that were there.
+  // The number of bricks that are new or replace earlier ones.
   std::size_t bricks_put = 0;
-  // Bricks that hold nothing any more; of a whole answer, all that were known.
+  // The number of bricks that hold nothing any more. A whole answer removes all bricks that were known.
   std::size_t bricks_removed = 0;
 };
 
-// A mesh that a server keeps up to date while its scene is edited: one open stream, which ends with the object. Made by
-// Client::track_mesh, and may outlive the client. One thread at a time, but for cancel.
+// A mesh that a server keeps up to date while its scene is edited. Client::track_mesh() makes it. The object owns one
+// open stream, which ends with it, and may outlive the client. Only one thread at a time may use it, except for
+// cancel().
 //
-// Errors end the stream: every later call returns the same status, and bricks() may hold a part of the answer that
-// failed. Edits that were made stay.
+// An error ends the stream: every later call returns the same status, and bricks() may hold a part of the answer that
+// failed. Edits that were made before stay in the scene.
 class TrackedMesh {
  public:
   TrackedMesh(TrackedMesh&&) noexcept;
   TrackedMesh& operator=(TrackedMesh&&) noexcept;
   ~TrackedMesh();
 
-  // Edits the scene as Client::edit_parameters does, and follows: with what others have put or edited, too.
-  // `expected_version` 0: any. Returns the summary of the mesh, its counts of the whole.
+  // Edits the scene as Client::edit_parameters() does, and brings the mesh up to date, also with what others have
+  // stored or edited. `expected_version` 0 means any version. Returns the summary of the mesh; its counts are those of
+  // the whole mesh.
   absl::StatusOr<v1::MeshSummary> edit(const std::vector<v1::ParameterEdit>& edits, std::uint64_t expected_version = 0);
-  // Follows what others have put or edited.
+  // Brings the mesh up to date with what others have stored or edited.
   absl::StatusOr<v1::MeshSummary> refresh();
-  // From any thread: ends the stream; a call that waits returns CANCELLED.
+  // Ends the stream; a call that waits for an answer returns CANCELLED. Any thread may call this.
   void cancel();
 
   // The mesh after the last answer.
   const BrickMesh& bricks() const;
-  // Of the last answer; the first one is track_mesh's, which is whole.
+  // The summary and the changes of the last answer. The first answer is the whole mesh that Client::track_mesh() waits
+  // for.
   const v1::MeshSummary& summary() const;
   const MeshChanges& changes() const;
 

@@ -1,3 +1,4 @@
+// The units of length that a scene may state.
 #pragma once
 
 #include <optional>
@@ -5,12 +6,13 @@
 
 namespace isofield {
 
-// The length of a unit in metres, as Scene.unit names it: "m", "cm", "mm", "um" (or "µm", "micron"), "nm", "pm",
-// "angstrom" (or "Å"), "km", "in" or "ft", also in their long forms such as "micrometres", with a number above 0 before
-// it where the unit is a multiple: "8 nm". Nothing: the text names no length.
+// Returns the length of a unit in metres. `unit` is written as in Scene.unit: "m", "cm", "mm", "um" (or "µm",
+// "micron"), "nm", "pm", "angstrom" (or "A", "Å"), "km", "in" or "ft", also in long forms such as "micrometres". A
+// number above 0 may stand before it where the unit is a multiple: "8 nm". Returns nothing where the text names no
+// length.
 std::optional<double> unit_in_metres(const std::string& unit);
 
-// The units that have a name, for messages.
+// The names of the units as a list for messages.
 extern const char* const kUnitNames;
 
 }  // namespace isofield

@@ -23,7 +23,7 @@ std::string upper(absl::string_view text) {
   return absl::AsciiStrToUpper(absl::StripAsciiWhitespace(text));
 }
 
-// The first run of letters in a name; digits and primes may stand before it.
+// Returns the first run of letters in a name; digits and primes may stand before it.
 absl::string_view leading_letters(absl::string_view name) {
   const auto letter = [](unsigned char c) { return absl::ascii_isalpha(c); };
   const auto begin = std::find_if(name.begin(), name.end(), letter);
@@ -46,7 +46,8 @@ constexpr std::array<absl::string_view, 13> kHeavySymbols = {"CL", "CO", "CR", "
 // Names, in capitals, that programs give to points without an atom: dummies, ghosts and lone pairs.
 constexpr std::array<absl::string_view, 5> kNoAtoms = {"BQ", "DU", "DUM", "LP", "XX"};
 
-// The lightest element that a name may mean, by its letters in capitals: "CA" is carbon. Null where there is none.
+// Returns the lightest element that a name may mean, by its letters in capitals ("CA" is carbon), or null where there
+// is none.
 const Element* lightest(absl::string_view letters) {
   if (letters.empty() || is_one_of(letters, kNoAtoms)) return nullptr;
   const bool light = absl::string_view("CNOHSPD").find(letters[0]) != absl::string_view::npos;
@@ -67,8 +68,9 @@ const Element* element_in_polymer(absl::string_view letters, const gemmi::Residu
   return info.is_standard() ? nullptr : lightest(letters);
 }
 
-// An ion, which is the only atom of its residue, has its residue's name: "CA" in "CA", "ZN" in "ZN2", "NA" in "NA+".
-// The names that CHARMM gives to ions are known too. Null where the atom is no ion.
+// Returns the element of an ion, or null where the atom is no ion. An ion, which is the only atom of its residue, has
+// the name of its residue: "CA" in "CA", "ZN" in "ZN2", "NA" in "NA+". The names that CHARMM gives to ions are known
+// too.
 const Element* element_of_ion(absl::string_view letters, absl::string_view residue) {
   constexpr std::array<std::pair<absl::string_view, absl::string_view>, 9> kCharmm = {{{"SOD", "NA"},
                                                                                        {"CLA", "CL"},
@@ -87,7 +89,7 @@ const Element* element_of_ion(absl::string_view letters, absl::string_view resid
   return find_element(letters);
 }
 
-// The element of a name by its four columns, in capitals, as NameColumns::kRightJustified says.
+// Returns the element of a name by its four columns, in capitals, as NameColumns::kRightJustified says.
 const Element* element_of_columns(absl::string_view name, absl::string_view letters) {
   const bool full = !absl::ascii_isspace(static_cast<unsigned char>(name[3]));
   if (!full && absl::ascii_isalpha(static_cast<unsigned char>(name[0]))) {
@@ -96,7 +98,7 @@ const Element* element_of_columns(absl::string_view name, absl::string_view lett
   return lightest(letters);
 }
 
-// True for the charge of an ion, such as "+", "2-", "3+" or "+2".
+// Returns true for the charge of an ion, such as "+", "2-", "3+" or "+2".
 bool is_charge(absl::string_view suffix) {
   return suffix.find_first_of("+-") != absl::string_view::npos &&
          suffix.find_first_not_of("+-0123456789") == absl::string_view::npos;

@@ -1,3 +1,4 @@
+// Parses CIF and mmJSON texts.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -7,8 +8,8 @@
 
 namespace isofield {
 
-// These read the values of a CIF or an mmJSON text. INVALID_ARGUMENT: the text is none; of CIF the message states the
-// line.
+// These return the values of a CIF or an mmJSON text. INVALID_ARGUMENT: it is no such text; for CIF the message states
+// the line.
 absl::StatusOr<gemmi::cif::Document> read_cif(const std::string& text);
 absl::StatusOr<gemmi::cif::Document> read_mmjson(std::string text);
 

@@ -25,7 +25,8 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-// Counts the values in a line. kDamaged: a quote does not end, or the line has what CIF does not allow there.
+// Counts the values in a line. Returns kDamaged where a quote does not end, or where the line has what CIF does not
+// allow there.
 int count_values(absl::string_view line) {
   int values = 0;
   std::size_t at = 0;
@@ -50,6 +51,7 @@ int count_values(absl::string_view line) {
   return printable ? values : kDamaged;
 }
 
+// Copies a text line by line without the damaged lines of its atoms.
 class CifMender {
  public:
   explicit CifMender(ImportReport& report) : report_(report) {}
@@ -67,7 +69,7 @@ class CifMender {
  private:
   enum class Place { kElsewhere, kText, kLoop, kAtomTags, kAtoms };
 
-  // True where the line stays. Notes which part of the file the next line belongs to.
+  // Returns true where the line stays, and notes which part of the file the next line belongs to.
   bool keeps(absl::string_view line, std::size_t number) {
     const bool begins_text = absl::StartsWith(line, ";");
     const absl::string_view content = absl::StripAsciiWhitespace(line);

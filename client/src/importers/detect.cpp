@@ -20,7 +20,7 @@
 namespace isofield {
 namespace {
 
-// Bytes and rows of a text that are looked at. PDB files may have longer headers, but their first line tells the
+// How many bytes and rows of a text are looked at. PDB files may have longer headers, but their first line tells the
 // format.
 constexpr std::size_t kLookedAt = 1 << 16;
 constexpr std::size_t kRowsLookedAt = 200;
@@ -79,7 +79,8 @@ bool is_pdb_record(absl::string_view line) {
 }
 
 // Tells molecules from points that follow a count: XYZ has "count, comment, lines of: element x y z", and Tinker has
-// "count title, lines of: index element x y z ...". Nothing where the text begins with no count or holds points.
+// "count title, lines of: index element x y z ...". Returns nothing where the text begins with no count or holds
+// points.
 std::optional<FileKind> kind_by_count(absl::string_view text) {
   LineReader lines(text);
   absl::string_view count, second, third;
@@ -116,7 +117,8 @@ std::optional<FileKind> kind_by_count(absl::string_view text) {
   return std::nullopt;
 }
 
-// True where most lines are samples of different ids, one of which is a root and most of which have a known parent.
+// Returns true where most lines are samples of different ids, one of which is a root and most of which have a known
+// parent.
 bool is_swc(absl::string_view text) {
   LineReader lines(text);
   absl::string_view line;
@@ -196,7 +198,7 @@ FileKind kind_of(ImportFormat format) {
 }  // namespace
 
 absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::string& path) {
-  // A packed file is named after the file that it holds.
+  // The name of a packed file is that of the file in it, with .gz after it.
   const std::string name(absl::StripSuffix(path, ".gz"));
   if (is_json(content)) return is_mmjson(content) ? FileKind::kMmcif : FileKind::kSceneJson;
   const bool is_named_message = absl::EndsWithIgnoreCase(name, ".pb");
@@ -219,7 +221,7 @@ absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::stri
   if (has_points(start)) return FileKind::kPoints;
   if (by_name) return kind_of(*by_name);
   if (absl::EndsWithIgnoreCase(name, ".json")) return FileKind::kSceneJson;
-  return refuse(path, "nothing in it says what it is");
+  return refuse(path, "its format cannot be recognised");
 }
 
 }  // namespace isofield

@@ -7,7 +7,7 @@
 namespace isofield {
 namespace {
 
-// By atomic number.
+// The elements in the order of their atomic numbers.
 constexpr std::array<Element, 118> kElements = {
     {{"H", 1.20},  {"He", 1.40}, {"Li", 1.82}, {"Be", 1.53}, {"B", 1.92},  {"C", 1.70},  {"N", 1.55},  {"O", 1.52},
      {"F", 1.47},  {"Ne", 1.54}, {"Na", 2.27}, {"Mg", 1.73}, {"Al", 1.84}, {"Si", 2.10}, {"P", 1.80},  {"S", 1.80},

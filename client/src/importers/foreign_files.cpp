@@ -77,7 +77,7 @@ absl::string_view find(absl::string_view start, const Magic* begin, const Magic*
   return found == end ? absl::string_view() : found->what;
 }
 
-// True for a line such as "v 1 2 3", a vertex of OBJ.
+// Returns true for a line such as "v 1 2 3", a vertex of OBJ.
 bool is_keyword_and_numbers(absl::string_view line, absl::string_view keyword) {
   const auto fields = split_fields(line);
   if (fields.size() < 4 || fields[0] != keyword) return false;

@@ -1,3 +1,4 @@
+// The importers of the formats.
 #pragma once
 
 #include <absl/status/status.h>
@@ -8,8 +9,8 @@
 
 namespace isofield {
 
-// Each adds the pieces of its format to an empty scene, sets the unit that the format implies, and reports.
-// INVALID_ARGUMENT: the text cannot be of this format, or lacks something that no default can stand for.
+// Each function adds the pieces of its format to an empty scene, sets the unit that the format implies, and fills in
+// the report. INVALID_ARGUMENT: the text cannot be of this format, or it lacks something that has no default.
 absl::Status import_swc(const std::string& text, const ImportOptions& options, Imported& imported);
 absl::Status import_pdb(const std::string& text, const ImportOptions& options, Imported& imported);
 absl::Status import_mmcif(const std::string& text, const ImportOptions& options, Imported& imported);

@@ -15,7 +15,7 @@
 namespace isofield {
 namespace {
 
-// The importer of a kind of file; nothing for scenes, which need none.
+// Returns the importer of a kind of file, or nothing for scenes, which need none.
 std::optional<ImportFormat> format_of(FileKind kind) {
   switch (kind) {
     case FileKind::kSceneJson:
@@ -38,7 +38,7 @@ std::optional<ImportFormat> format_of(FileKind kind) {
 }  // namespace
 
 std::optional<ImportFormat> import_format(const std::string& path) {
-  // A packed file has the format of what it unpacks to.
+  // A packed file has the format of the file in it.
   absl::string_view name = path;
   if (absl::EndsWithIgnoreCase(name, ".gz")) name.remove_suffix(3);
   constexpr std::array<std::pair<const char*, ImportFormat>, 8> kExtensions = {{{".swc", ImportFormat::kSwc},
@@ -132,7 +132,7 @@ absl::StatusOr<Imported> import_file(const std::string& path, const ImportOption
   if (!loaded.ok()) return loaded.status();
   if (!loaded->report) {
     return absl::InvalidArgumentError(
-        absl::StrCat(path, ": a scene already; expected a neuron, a molecule or points to make one of"));
+        absl::StrCat(path, ": already a scene; expected a neuron, a molecule or points to import"));
   }
   return Imported{std::move(loaded->scene), *std::move(loaded->report)};
 }

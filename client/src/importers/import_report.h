@@ -1,3 +1,4 @@
+// Fills in the report of an import.
 #pragma once
 
 #include <absl/strings/string_view.h>

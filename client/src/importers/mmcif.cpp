@@ -23,7 +23,7 @@ namespace isofield {
 namespace {
 
 constexpr char kCategory[] = "_atom_site.";
-// Tags in gemmi's form: "?" stands before those that may be missing. Their order is that of Column.
+// The tags in the form of gemmi: "?" stands before those that may be missing. Their order is that of Column.
 const std::vector<std::string> kTags = {
     "Cartn_x",       "Cartn_y",        "Cartn_z",       "?id",             "?pdbx_PDB_model_num", "?type_symbol",
     "?occupancy",    "?label_alt_id",  "?auth_asym_id", "?label_asym_id",  "?auth_comp_id",       "?label_comp_id",
@@ -34,7 +34,7 @@ enum Column {
   kAuthorNumber, kNumber, kAuthorName, kName, kInsertion
 };
 
-// A value without its quotes. It is empty where the file says "?" (unknown) or "." (not applicable).
+// Returns a value without its quotes. It is empty where the file says "?" (unknown) or "." (not applicable).
 absl::string_view text_of(const std::string& value) {
   if (gemmi::cif::is_null(value)) return {};
   absl::string_view text = value;
@@ -86,7 +86,7 @@ class AtomTable {
   static absl::string_view value(const Row& row, int column) {
     return row.has(column) ? text_of(row[column]) : absl::string_view();
   }
-  // The name that the author gave, which PDB files have too; where it is missing, the archive's own name.
+  // Returns the name that the author gave, which PDB files have too, or the name of the archive where that is missing.
   static absl::string_view either(const Row& row, int author, int archive) {
     const absl::string_view name = value(row, author);
     return name.empty() ? value(row, archive) : name;
@@ -135,7 +135,7 @@ gemmi::cif::Block* block_of_atoms(gemmi::cif::Document& document) {
   return nullptr;
 }
 
-// The error for a CIF without Cartesian coordinates.
+// Returns the error for a CIF without Cartesian coordinates.
 absl::Status no_atoms(gemmi::cif::Document& document) {
   for (gemmi::cif::Block& block : document.blocks) {
     if (block.find_values("_atom_site_fract_x") || block.find_values("_atom_site.fract_x")) {

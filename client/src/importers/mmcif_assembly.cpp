@@ -15,7 +15,8 @@ constexpr std::size_t kMostOperators = 100'000;
 
 using Motions = absl::flat_hash_map<std::string, RigidMotion>;
 
-// Expands a list without brackets, such as "a,b" or "1-60". False: a range descends, or there are too many names.
+// Expands a list without brackets, such as "a,b" or "1-60". Returns false where a range descends or there are too many
+// names.
 bool expand_list(absl::string_view list, std::vector<std::string>& names) {
   for (const absl::string_view item : absl::StrSplit(list, ',')) {
     if (names.size() > kMostOperators) return false;

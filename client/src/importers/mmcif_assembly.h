@@ -1,3 +1,4 @@
+// Reads the biological assemblies of mmCIF files.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -10,8 +11,8 @@
 
 namespace isofield {
 
-// The assemblies that a block of mmCIF describes. gemmi's own reader is not used, since it leaves out products of
-// operators, which capsids have, and assemblies whose description it does not know.
+// Returns the assemblies that a block of mmCIF describes. The reader of gemmi is not used, since it leaves out products
+// of operators, which capsids have, and assemblies whose description it does not know.
 std::vector<Assembly> read_assemblies(gemmi::cif::Block& block);
 
 // Expands an operator expression such as "1,2", "(1-60)" or "(X0)(1-5)" into products. Each product is a list of

@@ -15,13 +15,13 @@
 namespace isofield {
 namespace {
 
-// Without ImportOptions::range_factor.
+// The default of ImportOptions::range_factor for molecules.
 constexpr double kRangeFactor = 0.5;
 // No daemon takes a scene of so many atoms. The limit bounds what a damaged list of operators can ask for.
 constexpr std::size_t kMostAtoms = 50'000'000;
 
-// "CHAIN/RESIDUE/ATOM". In edits a dot ends a node's name and a leading '#' stands for an index, and strings of a scene
-// are UTF-8: characters that could break this become '_'.
+// Returns the name "CHAIN/RESIDUE/ATOM" of an atom. Characters that could break a name become '_': in edits a dot ends
+// the name of a node and a leading '#' stands for an index, and the strings of a scene are UTF-8.
 std::string node_name(const MoleculeAtom& atom, int copy) {
   std::string chain(atom.chain);
   if (copy > 1) absl::StrAppend(&chain, "-", copy);
@@ -48,6 +48,7 @@ bool is_rigid(const RigidMotion& motion) {
   return true;
 }
 
+// Adds atoms to a scene, and names those whose names are unique.
 class AtomAdder {
  public:
   AtomAdder(const ImportOptions& options, Imported& imported) : options_(options), imported_(imported) {}

@@ -1,3 +1,4 @@
+// Molecules as all readers of molecules hand them over, and the scene that is made of them.
 #pragma once
 
 #include <absl/status/status.h>
@@ -14,14 +15,14 @@
 
 namespace isofield {
 
-// An atom's place in its file, for the report.
+// The place of an atom in its file, for the report.
 struct AtomSource {
   std::size_t line_number;
   absl::string_view line;
 };
 
-// Adds a van der Waals sphere; notes an element that is unknown (null) or has no radius. Returns the new node, still
-// without a name.
+// Adds a van der Waals sphere, and notes an element that is unknown (null) or has no radius. Returns the new node,
+// which has no name yet.
 v1::Node& add_atom(const Element* element, const glm::dvec3& center, const AtomSource& source,
                    const ImportOptions& options, Imported& imported);
 
@@ -31,7 +32,7 @@ bool leave_out_hydrogen(const Element* element, const AtomSource& source, const 
 
 // An atom of a macromolecule. The views refer to texts that outlive it; they are empty where the file says nothing.
 struct MoleculeAtom {
-  // Null where it is unknown.
+  // Null where the element is unknown.
   const Element* element = nullptr;
   glm::dvec3 center{};
   absl::string_view chain;
@@ -50,7 +51,7 @@ struct MoleculeAtom {
   AtomSource source{};
 };
 
-// A rotation followed by a shift in angstrom. Of the matrix, rotation[i] is column i.
+// A rotation followed by a shift in angstrom. rotation[i] is column i of the matrix.
 struct RigidMotion {
   glm::dmat3 rotation{};
   glm::dvec3 shift{};
@@ -63,7 +64,7 @@ struct RigidMotion {
 // The copies of chains that make a biological assembly.
 struct Assembly {
   struct Part {
-    // Names as in MoleculeAtom::assembly_chain. Each motion makes a copy of all these chains.
+    // The names of chains, as in MoleculeAtom::assembly_chain. Each motion makes a copy of all these chains.
     std::vector<std::string> chains;
     std::vector<RigidMotion> motions;
   };

@@ -74,7 +74,7 @@ class AltlocChoice {
   bool takes(const MoleculeAtom& atom) const {
     return atom.altloc.empty() || chosen_.at({atom.chain, atom.number})->name == atom.altloc;
   }
-  // True where an atom that is taken is of another location than the one asked for, which its residue lacks.
+  // Returns true where an atom that is taken is of another location than the one asked for, which its residue lacks.
   static bool stands_in(const MoleculeAtom& atom, const ImportOptions& options) {
     return !atom.altloc.empty() && !options.altloc.empty() && atom.altloc != options.altloc;
   }
@@ -82,7 +82,7 @@ class AltlocChoice {
  private:
   // Means of equal occupancies differ by rounding.
   static constexpr double kTie = 1e-6;
-  // Chain and number.
+  // The chain and the number, which identify a residue.
   using Residue = std::pair<absl::string_view, absl::string_view>;
   struct Location {
     Residue residue;

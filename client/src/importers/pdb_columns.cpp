@@ -23,7 +23,7 @@ bool is_blank_at(absl::string_view line, std::size_t column) {
   return column > line.size() || absl::ascii_isspace(static_cast<unsigned char>(line[column - 1]));
 }
 
-// How many of the three coordinates have their decimal point where "%8.3f" puts it.
+// Returns how many of the three coordinates have their decimal point where "%8.3f" puts it.
 int points_in_place(absl::string_view line) {
   int points = 0;
   for (std::size_t first = kFirstCoordinate; first < kLastCoordinate; first += kCoordinateWidth) {
@@ -32,7 +32,7 @@ int points_in_place(absl::string_view line) {
   return points;
 }
 
-// gemmi's reader does not know Fortran's exponents, such as "1.5D+03".
+// Returns true for a number that gemmi can read, which does not know the exponents of Fortran, such as "1.5D+03".
 bool is_number(absl::string_view field) {
   return parse_length(field).has_value() && field.find_first_of("dD") == field.npos;
 }
@@ -47,7 +47,7 @@ std::string without_tabs(absl::string_view line) {
   return result;
 }
 
-// How many digits of the serial number do not fit columns 7 to 11.
+// Returns how many digits of the serial number do not fit columns 7 to 11.
 std::size_t excess_digits(absl::string_view line) {
   const absl::string_view serial = pdb_columns(line, 7, line.size());
   const std::size_t begin = std::min(serial.size(), serial.find_first_not_of(' '));
@@ -55,7 +55,7 @@ std::size_t excess_digits(absl::string_view line) {
   return begin == 0 && end > 5 ? end - 5 : 0;
 }
 
-// True for "17", "-3" and "17A", and for a number behind its chain, "A1000".
+// Returns true for "17", "-3" and "17A", and for a number right after its chain, "A1000".
 bool is_residue_number(absl::string_view field) {
   if (!field.empty() && absl::ascii_isalpha(static_cast<unsigned char>(field.front()))) field.remove_prefix(1);
   if (!field.empty() && field.front() == '-') field.remove_prefix(1);
@@ -66,8 +66,8 @@ bool is_residue_number(absl::string_view field) {
 }
 
 // Writes fields that blanks separate into their columns. Their order is: record, serial number, name, residue, [chain],
-// number, x, y, z, [occupancy, B, ... element]. Nothing where it is uncertain which field is which: of four numbers in
-// a row it cannot be told whether a coordinate or a factor is missing.
+// number, x, y, z, [occupancy, B, ... element]. Returns nothing where it is uncertain which field is which: with four
+// numbers in a row it is unknown whether a coordinate or a factor is missing.
 std::optional<std::string> from_fields(absl::string_view line) {
   std::vector<absl::string_view> fields = split_fields(line);
   const auto has_point = [](absl::string_view field) {
@@ -97,7 +97,7 @@ std::optional<std::string> from_fields(absl::string_view line) {
     residue.remove_prefix(1);
   }
   absl::string_view element = numbers == 5 && fields.size() > end ? fields.back() : "";
-  // A field that the atom's name does not begin with is the name of a segment, not an element.
+  // A field with which the name of the atom does not begin is the name of a segment, not an element.
   if (element.size() > 2 || !absl::StartsWithIgnoreCase(fields[2], element)) element = "";
   if (fields[2].size() > 4 || residue.size() > 3 || chain.size() > 1 || number.size() > 4) return std::nullopt;
   const std::string name = absl::StrCat(fields[2].size() < 4 ? " " : "", fields[2]);

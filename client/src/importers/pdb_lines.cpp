@@ -16,14 +16,16 @@
 namespace isofield {
 namespace {
 
-// Columns of a record.
+// The number of columns of a record.
 constexpr std::size_t kWidth = 80;
-// The number of serial numbers that hybrid-36 has with five decimal digits or a capital letter first.
+// The number of serial numbers that hybrid-36 has: those of five decimal digits and those that begin with a capital
+// letter.
 constexpr std::size_t kSerialLimit = 100'000 + 26 * 36 * 36 * 36 * 36;
 
 enum class Record { kAtom, kModel, kEndOfModel, kAssembly, kOther };
 
-// Names of records have up to six letters. The name ATOM may touch its serial number, as in "ATOM100000".
+// Returns the kind of a record. Names of records have up to six letters. The name ATOM may touch its serial number, as
+// in "ATOM100000".
 Record record_of(absl::string_view line) {
   const absl::string_view name = pdb_field(line, 1, 6);
   const auto is = [&](absl::string_view known) { return absl::EqualsIgnoreCase(name, known); };
@@ -37,7 +39,7 @@ Record record_of(absl::string_view line) {
   return Record::kOther;
 }
 
-// Reads the next line without the blanks before its record's name. False at the end.
+// Reads the next line without the blanks before the name of its record. Returns false at the end of the text.
 bool next_record(LineReader& lines, absl::string_view& line) {
   if (!lines.next_raw(line)) return false;
   line.remove_prefix(std::min(line.size(), line.find_first_not_of(" \t")));
@@ -74,7 +76,7 @@ std::string hybrid_36(std::size_t serial) {
   return digits;
 }
 
-// Finds out whether the file's atom names are right-justified. The first name of a single-letter element tells.
+// Finds out whether the atom names of the file are right-justified. The first name of an element with one letter tells.
 class NameStyle {
  public:
   void pass(absl::string_view line) {
@@ -89,7 +91,8 @@ class NameStyle {
   }
 
  private:
-  // True for "C", "N1", "O12" and the like: a letter with nothing but digits after it cannot be another element.
+  // Returns true for "C", "N1", "O12" and the like: a letter with nothing but digits after it cannot be another
+  // element.
   static bool is_carbon_or_kin(absl::string_view name) {
     return name.find_first_of("CNOcno") == 0 && name.find_first_not_of("0123456789", 1) == name.npos;
   }
@@ -98,13 +101,14 @@ class NameStyle {
   bool left_justified_ = false;
 };
 
-// The element in columns 77 and 78. A charge after it, which may begin in column 78 ("N1+"), is left out.
+// Returns the element in columns 77 and 78. A charge after it, which may begin in column 78 ("N1+"), is left out.
 const Element* stated_element(absl::string_view line) {
   absl::string_view field = pdb_field(line, 77, 78);
   while (!field.empty() && !absl::ascii_isalpha(static_cast<unsigned char>(field.back()))) field.remove_suffix(1);
   return find_element(field);
 }
 
+// Adds the atoms of the chosen model to a PdbLines, and mends or drops their lines.
 class PdbMender {
  public:
   PdbMender(NameColumns columns, PdbLines& result, ImportReport& report)
@@ -158,7 +162,7 @@ class PdbMender {
     if (!atom.element) atom.element = element_of_name(pdb_columns(line, 13, 16), atom.residue, columns_);
   }
 
-  // Appends the record for gemmi's reader: only the fields that it needs, in printable characters.
+  // Appends the record for the reader of gemmi, with only the fields that it needs and in printable characters.
   void append(absl::string_view line, const PdbAtomLine& atom) {
     std::string& text = result_.text;
     const std::size_t begin = text.size();

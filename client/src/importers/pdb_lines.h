@@ -1,3 +1,4 @@
+// Repairs PDB texts, so that a strict reader can read them.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -21,17 +22,17 @@ struct PdbAtomLine {
 
 // One model of a PDB file as text that a strict reader accepts. It holds the records of assemblies (REMARK 350), and
 // ATOM and HETATM records of 80 columns with numbers in all fields. The serial number of a record, in hybrid-36, is the
-// index of its line in `atoms`. `mended` owns the lines that had to be mended, and `atoms` has views into them: this
-// may be moved, but not copied.
+// index of its line in `atoms`. `mended` owns the lines that had to be mended, and `atoms` has views into them: the
+// struct may be moved, but not copied.
 struct PdbLines {
   std::string text;
   std::vector<PdbAtomLine> atoms;
   std::deque<std::string> mended;
 };
 
-// Chooses the model, mends lines and drops those that cannot be mended; each of these is noted. Frames between records
-// END count as models too. The views refer to `text` and to the result. INVALID_ARGUMENT: there are no atoms, or more
-// in a model than serial numbers, or ImportOptions::frame is beyond the last model.
+// Chooses the model, mends lines and drops those that cannot be mended; each of these is noted. Frames that END records
+// separate count as models too. The views refer to `text` and to the result. INVALID_ARGUMENT: there are no atoms, or
+// more in one model than there are serial numbers, or ImportOptions::frame is beyond the last model.
 absl::StatusOr<PdbLines> mend_pdb(const std::string& text, const ImportOptions& options, ImportReport& report);
 
 }  // namespace isofield

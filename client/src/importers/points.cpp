@@ -18,17 +18,17 @@
 namespace isofield {
 namespace {
 
-// R of a bare point for which neither ImportOptions::radius nor a column states one.
+// The R of a bare point for which neither ImportOptions::radius nor a column states one.
 constexpr double kSoftRadius = 0.5;
 // The r at which w(r) = (1 - r^2)^3, the field of soft objects in scene.proto, is 1/2.
 const double kSurface = std::sqrt(1 - std::cbrt(0.5));
 constexpr char kDropped[] = "line dropped: expected \"x y z\" with finite numbers of a usable size";
 
-// The column of R, or nothing where there is none. INVALID_ARGUMENT: the column that is asked for is not there.
+// Returns the column of R, or nothing where there is none. INVALID_ARGUMENT: the column that is asked for is not there.
 absl::StatusOr<std::optional<std::size_t>> radius_column(const TableHead& head, const std::string& asked) {
   if (asked.empty()) {
     if (const auto column = find_column(head.names(), "radius")) return column;
-    // Beside a column g, a column r is red.
+    // Beside a column g, a column r is the red part of a colour.
     return find_column(head.names(), "g") ? std::nullopt : find_column(head.names(), "r");
   }
   std::size_t number = 0;
@@ -49,6 +49,7 @@ absl::StatusOr<std::optional<std::size_t>> radius_column(const TableHead& head, 
                        : absl::StrCat("expected one of the columns ", list_names(head.names()), ", or its number")));
 }
 
+// Imports a table of points, line by line.
 class PointImport {
  public:
   PointImport(const ImportOptions& options, Imported& imported) : options_(options), imported_(imported) {}
@@ -135,7 +136,7 @@ class PointImport {
   TableHead head_;
   std::optional<RowNumbers> numbers_;
   bool has_radius_ = false;
-  // The place of the distance among the numbers of a row; 0 where the table has no distances.
+  // The index of the distance among the numbers of a row; 0 where the table has no distances.
   std::size_t distance_place_ = 0;
 };
 

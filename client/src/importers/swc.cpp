@@ -28,7 +28,7 @@ void note_trees(const std::vector<SwcSample>& samples, ImportReport& report) {
   }
 }
 
-// Notes a unit that is probably wrong. No soma has a radius above 100 um, and a neuron that is 0.02 um thick at most
+// Notes a unit that is probably wrong. No soma has a radius above 100 um. A neuron that is nowhere thicker than 0.02 um
 // would hardly be more than its membranes, which are 0.01 um thick.
 void note_size(const std::vector<SwcSample>& samples, ImportReport& report) {
   constexpr double kLargest = 100, kSmallest = 0.02;
@@ -53,7 +53,7 @@ void note_size(const std::vector<SwcSample>& samples, ImportReport& report) {
 absl::Status import_swc(const std::string& text, const ImportOptions& options, Imported& imported) {
   ImportReport& report = imported.report;
   report.format = "neuron (SWC)";
-  // By the rule of NeuroMorpho's archive; the format itself states none.
+  // The archive NeuroMorpho.Org uses this unit; the format itself states none.
   imported.scene.set_unit("um");
   const glm::dvec3 scale = read_swc_scale(text, options.apply_scale, report);
   std::vector<SwcSample> samples = read_swc_samples(text, scale, report);

@@ -46,7 +46,7 @@ Solid ellipsoid(const Contour& contour) {
   return solid;
 }
 
-// The hull of two balls of a stack: that of the contour `below` and that of the next contour.
+// Returns the hull of two balls of a stack: that of the contour `below` and that of the next contour.
 Solid hull(const ContourStack& stack, std::size_t below) {
   const auto& a = stack.balls[below];
   const auto& b = stack.balls[below + 1];
@@ -71,7 +71,8 @@ double range_within(const std::array<glm::dvec3, 3>& axes, double range) {
   return std::clamp(range, 2 * kLeastLength / least, kLargestLength / (2 * most));
 }
 
-// The index of the coordinate axis that a unit vector lies along, but for rounding; 3 where it lies along none.
+// Returns the index of the coordinate axis along which a unit vector lies, except for rounding, or 3 where it lies
+// along none.
 std::size_t axis_of(const glm::dvec3& unit) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (std::abs(unit[axis]) > 1 - 1e-12) return axis;
@@ -112,7 +113,7 @@ void add_hull(const ContourStack& stack, std::size_t below, const ImportOptions&
   add_transform(stack.axes, stack.origin, scene);
 }
 
-// True where centres and radii of two balls differ by no more than a hundredth of the radius.
+// Returns true where the centres and radii of two balls differ by no more than a hundredth of the radius.
 bool is_same(const ContourStack::Ball& a, const ContourStack::Ball& b) {
   return glm::distance(a.center, b.center) + std::abs(a.radius - b.radius) <= 0.01 * a.radius;
 }
@@ -130,7 +131,7 @@ void add_stack(const Soma& soma, const std::vector<SwcSample>& samples, const Im
   }
 }
 
-// The index of the lower one of the two contours between which a point lies, or of the two nearest ones.
+// Returns the index of the lower one of the two contours between which a point lies, or of the two nearest ones.
 std::size_t contour_below(const Soma& soma, const glm::dvec3& point) {
   const glm::dvec3 normal = soma.contours.front().normal;
   const auto above =

@@ -1,3 +1,4 @@
+// The pieces of somata, and the places where processes (axons and dendrites) join them.
 #pragma once
 
 #include <array>
@@ -21,17 +22,19 @@ struct Solid {
   bool contains(const glm::dvec3& point) const;
 };
 
-// Where a process joins a soma.
+// The place where a process joins a soma.
 struct Joint {
-  // The place in the soma that the process leads to.
+  // The point in the soma that the process leads to.
   glm::dvec3 target{};
   // The parts of the soma near the process, one or two.
   std::vector<Solid> solids;
-  // The least radius of a process that is thicker than the soma there; its samples inside the soma are kept.
+  // The least radius of a process that is thicker than the soma there. Samples of such a process are kept even inside
+  // the soma.
   double width = 0;
 
   bool contains(const glm::dvec3& point) const;
-  // The point at which the line from `inner` to `outer` leaves the solids; `inner` itself where it is outside already.
+  // Returns the point at which the line from `inner` to `outer` leaves the solids, or `inner` itself where it is
+  // outside already.
   glm::dvec3 surface(const glm::dvec3& inner, const glm::dvec3& outer) const;
 };
 
@@ -40,8 +43,9 @@ struct Joint {
 // of its upper contour.
 void add_soma(const Soma& soma, const std::vector<SwcSample>& samples, const ImportOptions& options, v1::Scene& scene);
 
-// The joint of a process that is linked to the soma's sample `at` and whose nearest sample is at `outer`. All samples
-// but those of outlines must have a radius. It costs the same for somata of any size, but for a binary search.
+// Returns the joint of a process that is linked to the sample `at` of the soma and whose nearest sample is at `outer`.
+// All samples but those of outlines must have a radius. The cost does not depend on the size of the soma, except for a
+// binary search.
 Joint join_soma(const Somata& somata, int at, const glm::dvec3& outer, const std::vector<SwcSample>& samples);
 
 }  // namespace isofield

@@ -10,14 +10,14 @@
 namespace isofield {
 namespace {
 
-// How far points of one plane, and of one depth, may lie apart along the normal, as parts of their mean distance from
-// the centre.
+// How far points of one plane, and points of one depth, may lie apart along the normal, in parts of their mean distance
+// from the centre.
 constexpr double kPlaneTolerance = 0.1;
 constexpr double kDepthTolerance = 1e-3;
 // The least roundness, 4 pi area / perimeter^2, of an outline. It is 1 for a circle, 0.24 for an ellipse of axes 10 :
 // 1, and 0 for a line there and back.
 constexpr double kLeastRoundness = 0.15;
-// The same for points that were sorted by angle. That makes a polygon of any points, so more is demanded.
+// The same for points that were sorted by angle. Sorting makes a polygon of any points, so that more is demanded.
 constexpr double kLeastRoundnessByAngle = 0.4;
 // The largest closing edge of an outline, over the length of all other edges. It is 0.5 for an equilateral triangle and
 // 0.64 for a half circle, which is an open arc.
@@ -35,8 +35,8 @@ double mean_distance(const std::vector<glm::dvec3>& points, const glm::dvec3& ce
   return sum / static_cast<double>(points.size());
 }
 
-// The normal of the plane through the centre, the point furthest from it and the one that spans the widest triangle
-// with both. Nothing where all points lie on a line.
+// Returns the normal of the plane through the centre, the point furthest from it and the point that spans the widest
+// triangle with both. Returns nothing where all points lie on a line.
 std::optional<glm::dvec3> plane_normal(const std::vector<glm::dvec3>& points, const glm::dvec3& center) {
   const auto by_distance = [&](const glm::dvec3& a, const glm::dvec3& b) {
     return glm::distance(a, center) < glm::distance(b, center);
@@ -95,8 +95,8 @@ std::vector<std::vector<int>> runs_of_depth(const std::vector<glm::dvec3>& point
   return runs;
 }
 
-// Fits a contour to each run. Empty where a run is no outline, or where more than a fifth of the points are in runs of
-// one or two.
+// Fits a contour to each run. Returns none where a run is no outline, or where more than a fifth of the points are in
+// runs of one or two.
 std::vector<Contour> fit_runs(const std::vector<glm::dvec3>& points, const std::vector<std::vector<int>>& runs,
                               bool in_order) {
   std::vector<Contour> contours;
@@ -130,7 +130,7 @@ std::optional<Contour> fit_contour(const std::vector<glm::dvec3>& points, bool i
   });
   if (!is_flat) return std::nullopt;
 
-  // The points in some frame of the plane, in units of the extent.
+  // `flat` has the points in some frame of the plane, in units of the extent.
   const std::size_t axis = std::abs((*normal)[0]) < 0.6 ? 0 : 1;
   glm::dvec3 u{};
   u[axis] = 1;

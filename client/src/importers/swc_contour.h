@@ -1,3 +1,4 @@
+// Fits ellipses to the outlines that somata are drawn with in SWC files.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -19,13 +20,13 @@ struct Contour {
 
 // Fits an ellipse to points that run once round an outline (`in_order`), or that surround a place in any order, as the
 // ends of a star do. Its centre and the ratio of its axes are those of the enclosed area, so that densely spaced points
-// count no more than others. Its size is such that the points lie on it on average. Nothing: there are fewer than three
-// points, they are not in one plane (within a tenth of their mean distance from the centre), or they form no closed
-// outline but, for example, a line or an open arc.
+// count no more than others. Its size is such that the points lie on it on average. Returns nothing where there are
+// fewer than three points, where they are not in one plane (within a tenth of their mean distance from the centre), or
+// where they form no closed outline but, for example, a line or an open arc.
 std::optional<Contour> fit_contour(const std::vector<glm::dvec3>& points, bool in_order);
 
-// Fits ellipses to outlines in two or more parallel planes, ordered by depth along their common normal. Empty: more
-// than a fifth of the points lie outside of such planes, or the points of a plane form no outline.
+// Fits ellipses to outlines in two or more parallel planes, ordered by depth along their common normal. Returns none
+// where more than a fifth of the points lie outside of such planes, or where the points of a plane form no outline.
 std::vector<Contour> fit_contours(const std::vector<glm::dvec3>& points, bool in_order);
 
 // Turns the frame over where its normal points away from `direction`.

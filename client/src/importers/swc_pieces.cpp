@@ -27,6 +27,7 @@ bool has_length(const End& a, const End& b) {
   return glm::distance(a.center, b.center) > kShortest * std::max(a.radius, b.radius);
 }
 
+// Makes the pieces of all trees: it surveys all samples first, then makes the piece of each.
 class PieceMaker {
  public:
   PieceMaker(const std::vector<SwcSample>& samples, const Somata& somata, const ImportOptions& options,
@@ -52,7 +53,7 @@ class PieceMaker {
   const Soma& soma_of(int i) const { return somata_.all[somata_.soma_of[i]]; }
 
   // Counts the edges of each tree that have a length, and finds its widest sample. A soma counts as an edge, unless it
-  // is a stack of frusta, which has its own.
+  // is a stack of frusta, whose own edges count.
   void survey(int i) {
     const int parent = samples_[i].parent;
     tree_[i] = parent == kNoParent ? i : tree_[parent];
@@ -85,7 +86,7 @@ class PieceMaker {
     }
   }
 
-  // A process that leads to a soma from its parent ends at the surface.
+  // Ends a process that leads from its parent to a soma at the surface of the soma.
   void enter_soma(int i) {
     const SwcSample& parent = samples_[samples_[i].parent];
     const Joint joint = join_soma(somata_, i, parent.center, samples_);
@@ -100,7 +101,7 @@ class PieceMaker {
     }
   }
 
-  // A process begins at the surface of its soma: samples inside are left out unless they are thicker than the soma.
+  // Begins a process at the surface of its soma. Samples inside are left out unless they are thicker than the soma.
   void leave_soma(int i) {
     const SwcSample& sample = samples_[i];
     const int parent = sample.parent;
@@ -120,7 +121,7 @@ class PieceMaker {
     add_edge(i, {start, inner_radius + part * (sample.radius - inner_radius)}, end_of(sample));
   }
 
-  // True where the joint also contains the point of the sample's ball that is farthest from the target.
+  // Returns true where the joint also contains the point of the ball of the sample that is farthest from the target.
   static bool is_covered(const Joint& joint, const End& end) {
     const double out = glm::distance(joint.target, end.center);
     return !(out > 0) || joint.contains(joint.target + (1 + end.radius / out) * (end.center - joint.target));
@@ -162,11 +163,11 @@ class PieceMaker {
   const ImportOptions& options_;
   v1::Scene& scene_;
   ImportReport& report_;
-  std::vector<int> tree_;        // for each sample: its root
-  std::vector<int> edges_;       // for each root: the number of edges and bodies that become pieces
-  std::vector<int> widest_;      // for each root: the sample with the largest radius
-  std::vector<bool> has_child_;  // for each sample: whether another one has it as parent
-  // For each sample of a process that lies inside a soma: the soma's sample that the process is linked to. Else
+  std::vector<int> tree_;        // the root of each sample
+  std::vector<int> edges_;       // the number of edges and bodies that become pieces, for each root
+  std::vector<int> widest_;      // the sample with the largest radius, for each root
+  std::vector<bool> has_child_;  // true for each sample that is the parent of another one
+  // The sample of the soma that a process is linked to, for each sample of the process inside of the soma; else
   // kNoParent.
   std::vector<int> within_;
 };

@@ -1,3 +1,4 @@
+// Makes the pieces of a scene from the samples of a neuron.
 #pragma once
 
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace isofield {
 
-// The default of ImportOptions::range_factor for neurons: the range of a piece over its radius.
+// The default of ImportOptions::range_factor for neurons: the ratio of the range of a piece to its radius.
 inline constexpr double kSwcRangeFactor = 1;
 
 // Turns linked samples with radii into the pieces of a scene, and reports what is left out. `order` lists the samples'

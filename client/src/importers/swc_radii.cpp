@@ -11,7 +11,8 @@
 namespace isofield {
 namespace {
 
-// For each sample the nearest one among itself and its descendants that has a radius; kNoParent where none has.
+// Returns, for each sample, the nearest one among itself and its descendants that has a radius; kNoParent where none
+// has.
 std::vector<int> nearest_with_radius(const std::vector<int>& order, const std::vector<bool>& outlines,
                                      const std::vector<SwcSample>& samples) {
   std::vector<int> nearest(samples.size(), kNoParent);
@@ -33,8 +34,8 @@ std::vector<int> nearest_with_radius(const std::vector<int>& order, const std::v
   return nearest;
 }
 
-// True for a root that the file states; false for a sample that is a root because its parent is missing or dropped, or
-// because a cycle is cut there.
+// Returns true for a root that the file states, and false for a sample that is a root because its parent is missing or
+// dropped, or because a cycle is cut there.
 bool begins_a_tree(const SwcSample& root) {
   return root.parent_id < 0 || root.parent_id == root.id;
 }
@@ -45,7 +46,8 @@ absl::Status mend_radii(const std::vector<bool>& outlines, const ImportOptions& 
                         std::vector<SwcSample>& samples, ImportReport& report) {
   constexpr char kNone[] = "sample without a radius > 0 that a scene can hold: ";
   const std::vector<int> nearest = nearest_with_radius(order, outlines, samples);
-  // For each sample: whether its tree begins at a sample that has lost its parent, and whether the sample is dropped.
+  // These state for each sample whether its tree begins at a sample that has lost its parent, and whether it is
+  // dropped.
   std::vector<bool> is_lost(samples.size(), false), is_dropped(samples.size(), false);
   for (const int i : order) {
     SwcSample& sample = samples[i];

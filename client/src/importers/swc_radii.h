@@ -1,3 +1,4 @@
+// Finds radii for the samples of a neuron that have none.
 #pragma once
 
 #include <absl/status/status.h>

@@ -15,16 +15,18 @@ namespace isofield {
 namespace {
 
 constexpr std::size_t kColumns = 7;
-// The server takes segments up to kLargestLength, and these coordinates are at most 0.87 of it apart.
+// The largest coordinate. The server takes segments up to kLargestLength, and two points within these coordinates are
+// at most 0.87 of it apart.
 constexpr double kFarthest = kLargestLength / 4;
 enum Column { kId, kType, kX, kRadius = 5, kParent };
 
-// The part of a line before a comment.
+// Returns the part of a line before a comment.
 absl::string_view without_comment(absl::string_view line) {
   return line.substr(0, line.find('#'));
 }
 
-// True where blanks or semicolons separate enough fields and one of these has a comma inside: it is a decimal comma.
+// Returns true where blanks or semicolons separate enough fields and one of these has a comma inside, which is then a
+// decimal comma.
 bool has_decimal_commas(absl::string_view data) {
   const std::vector<absl::string_view> fields = absl::StrSplit(data, absl::ByAnyChar(" \t;"), absl::SkipEmpty());
   return fields.size() >= kColumns && std::any_of(fields.begin(), fields.end(), [](absl::string_view field) {

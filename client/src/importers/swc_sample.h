@@ -1,3 +1,4 @@
+// A sample of a neuron: one line of an SWC file.
 #pragma once
 
 #include <absl/numeric/int128.h>
@@ -9,7 +10,7 @@
 
 namespace isofield {
 
-// Wide enough for signed and for unsigned numbers of 64 bits, since files have either as ids.
+// An id, wide enough for signed and for unsigned numbers of 64 bits, since files have either.
 using SwcId = absl::int128;
 
 inline constexpr long long kSomaType = 1;
@@ -18,10 +19,11 @@ inline constexpr int kNoParent = -1;
 // A usable line of an SWC file.
 struct SwcSample {
   SwcId id = 0;
-  // 0 is undefined, 1 a soma, 2 an axon, 3 a basal and 4 an apical dendrite; other types are custom.
+  // The kind of the sample: 0 is undefined, 1 a soma, 2 an axon, 3 a basal and 4 an apical dendrite; other types are
+  // custom.
   long long type = 0;
   glm::dvec3 center{};
-  // 0 where the file states none that a scene can hold.
+  // The radius, or 0 where the file states none that a scene can hold.
   double radius = 0;
   SwcId parent_id = -1;
   // The index of the parent's sample, or kNoParent.
@@ -34,7 +36,7 @@ inline bool is_soma(const SwcSample& sample) {
   return sample.type == kSomaType;
 }
 
-// The name of the piece that ends at the sample, such as "n17".
+// Returns the name of the piece that ends at the sample, such as "n17".
 std::string piece_name(const SwcSample& sample);
 
 }  // namespace isofield

@@ -14,8 +14,8 @@
 namespace isofield {
 namespace {
 
-// The fields after the word SCALE of a header line; nothing for any other line. Where "scale" is not in capitals, a
-// number must follow, since the comment may be prose.
+// Returns the fields after the word SCALE of a header line, or nothing for any other line. Where "scale" is not in
+// capitals, a number must follow, since the comment may be prose.
 std::optional<std::vector<absl::string_view>> scale_fields(absl::string_view line) {
   if (!absl::ConsumePrefix(&line, "#")) return std::nullopt;
   while (absl::ConsumePrefix(&line, "#")) continue;

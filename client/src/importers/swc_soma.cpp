@@ -9,6 +9,7 @@
 namespace isofield {
 namespace {
 
+// Groups the samples of type 1 into somata, decides their forms, and joins outlines at several depths.
 class SomaFinder {
  public:
   SomaFinder(const std::vector<int>& order, std::vector<SwcSample>& samples, ImportReport& report)
@@ -50,7 +51,8 @@ class SomaFinder {
     }
   }
 
-  // True for samples so near each other that no edge between them has a length. The first one gets the largest radius.
+  // Returns true for samples so near each other that no edge between them has a length. The first one gets the largest
+  // radius.
   bool is_at_one_place(const Soma& soma) {
     SwcSample& first = samples_[soma.members.front()];
     double radius = 0, extent = 0;
@@ -63,8 +65,8 @@ class SomaFinder {
     return true;
   }
 
-  // True where the second and the third sample are opposite each other about the first, their parent, and each radius
-  // is equal to the distance between them and it or states nothing (0, or as thin as an outline).
+  // Returns true where the second and the third sample are opposite each other about the first, their parent. Each
+  // radius must be equal to the distance of these from the first, or state nothing (0, or as thin as an outline).
   bool is_sphere_of_three(const Soma& soma) {
     constexpr double kTolerance = 0.05;
     const int center = soma.members[0];

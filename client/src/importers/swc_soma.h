@@ -1,3 +1,4 @@
+// Finds the somata (cell bodies) of neurons and decides what shapes they have.
 #pragma once
 
 #include <vector>
@@ -11,6 +12,7 @@ namespace isofield {
 
 inline constexpr int kNoSoma = -1;
 
+// The form in which the pieces of a soma are made.
 enum class SomaForm {
   // A sphere about the first sample, with its radius.
   kSphere,
@@ -30,13 +32,14 @@ struct Soma {
   ContourStack stack;
 };
 
+// All somata of a file.
 struct Somata {
   std::vector<Soma> all;
-  // For each sample: the index of its soma in `all`, or kNoSoma.
+  // The index of the soma of each sample in `all`, or kNoSoma.
   std::vector<int> soma_of;
-  // For each sample: its first child that belongs to the same soma, or kNoParent.
+  // The first child of each sample that belongs to the same soma, or kNoParent.
   std::vector<int> first_child;
-  // For each sample: true where it only marks the surface of a soma, so that its radius means nothing.
+  // True for each sample that only marks the surface of a soma, so that its radius means nothing.
   std::vector<bool> outlines;
 };
 

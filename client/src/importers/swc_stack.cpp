@@ -7,7 +7,7 @@
 namespace isofield {
 namespace {
 
-// The largest stretch within the plane or along the depth. The server refuses maps of a condition number above 1e6.
+// The largest stretch within the plane or along the depth. The server refuses maps whose condition number is above 1e6.
 constexpr double kMostStretch = 500;
 
 // Sets origin and axes of the stack, and `aspect`, the ratio of the axes of the mean ellipse. Larger ellipses weigh
@@ -36,12 +36,14 @@ void set_frame(const std::vector<Contour>& contours, ContourStack& stack, double
                 std::cos(turn) * widest.minor - std::sin(turn) * widest.major, widest.normal};
 }
 
+// A contour as a circle of the stretched plane.
 struct Ring {
   double depth;
   double squared_radius;
 };
 
-// The slope of the squared radius at a ring: that of the parabola through three rings, or of the line through two.
+// Returns the slope of the squared radius at a ring: that of the parabola through three rings, or of the line through
+// two.
 double slope_at(const std::vector<Ring>& rings, std::size_t i) {
   const auto secant = [&](std::size_t a, std::size_t b) {
     return (rings[b].squared_radius - rings[a].squared_radius) / (rings[b].depth - rings[a].depth);
@@ -53,14 +55,14 @@ double slope_at(const std::vector<Ring>& rings, std::size_t i) {
   return below + curvature * (2 * rings[i].depth - rings[m - 1].depth - rings[m].depth);
 }
 
-// The stretch of the depth that makes a ball of the body, if the rings are those of an ellipsoid. Their squared radii
-// are then a parabola of the depth whose leading coefficient is minus the square of the stretch.
+// Returns the stretch of the depth that makes a ball of the body, if the rings are those of an ellipsoid. Their squared
+// radii are then a parabola of the depth, whose leading coefficient is minus the square of the stretch.
 double roundest_stretch(const std::vector<Ring>& rings) {
   const Ring& first = rings.front();
   const Ring& last = rings.back();
   const double height = last.depth - first.depth;
   if (rings.size() == 2) return std::sqrt(std::abs(last.squared_radius - first.squared_radius)) / height;
-  // Least squares of the rise above the line from the first ring to the last against -(d - d0) (d - d1).
+  // This is a least-squares fit of the rise above the line from the first ring to the last, by -(d - d0) (d - d1).
   double product = 0, square = 0;
   for (const Ring& ring : rings) {
     const double t = (ring.depth - first.depth) / height;
@@ -72,7 +74,7 @@ double roundest_stretch(const std::vector<Ring>& rings) {
   return std::sqrt(std::max(0.0, product / square));
 }
 
-// The ball that touches a ring: the depth of its centre, which is stretched, and its radius.
+// A ball that touches a ring. `depth` is that of its centre, after the stretch.
 struct Touching {
   double depth;
   double radius;
@@ -90,7 +92,7 @@ std::vector<Touching> touching_balls(const std::vector<Ring>& rings, double stre
   return balls;
 }
 
-// True where the balls reach no farther beyond the outer rings than the next ring is away.
+// Returns true where the balls reach no farther beyond the outer rings than the next ring is away.
 bool ends_in_time(const std::vector<Ring>& rings, const std::vector<Touching>& balls, double stretch) {
   const std::size_t last = rings.size() - 1;
   const double low = 2 * rings[0].depth - rings[1].depth, high = 2 * rings[last].depth - rings[last - 1].depth;

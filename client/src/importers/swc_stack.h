@@ -1,3 +1,4 @@
+// The body of a soma that is drawn as contours at several depths.
 #pragma once
 
 #include <array>
@@ -20,10 +21,11 @@ struct ContourStack {
   std::vector<Ball> balls;
 };
 
-// Takes two or more contours, ordered by depth along their common normal. The map makes a circle of their mean ellipse,
-// and stretches the depth so that the body is as round as possible. The body must end within one distance of contours
-// beyond the outer ones, since another contour would have been drawn there. Each ball touches its contour with the
-// slope that the contours have there, so that the contours of an ellipsoid give that ellipsoid.
+// Makes the body of two or more contours, which are ordered by depth along their common normal. The map makes a circle
+// of their mean ellipse, and stretches the depth so that the body is as round as possible. The body must not reach
+// farther beyond an outer contour than the next contour is away, since another contour would have been drawn there.
+// Each ball touches its contour with the slope that the contours have there, so that the contours of an ellipsoid give
+// that ellipsoid.
 ContourStack stack_contours(const std::vector<Contour>& contours);
 
 }  // namespace isofield

@@ -59,8 +59,8 @@ std::vector<int> parents_first(const std::vector<SwcSample>& samples) {
   std::iota(order.begin(), order.end(), 0);
   if (std::all_of(order.begin(), order.end(), [&](int i) { return samples[i].parent < i; })) return order;
 
-  // Children as chains: the first of each sample, then the next sibling of each. Built from the back, so that chains
-  // run in the file's order.
+  // The children of a sample form a chain: the first child of each sample, then the next sibling of each child. The
+  // chains are built from the back, so that they run in the order of the file.
   std::vector<int> first_child(samples.size(), kNoParent);
   std::vector<int> next_sibling(samples.size(), kNoParent);
   for (int i = count - 1; i >= 0; --i) {

@@ -27,7 +27,7 @@ std::size_t skip_blank_lines(const std::vector<TextLine>& lines, std::size_t at)
 struct TinkerFrame {
   long long count;
   std::size_t header_line;
-  // The lines of its atoms, from `begin` to before `end`.
+  // The lines of the atoms, from `begin` to before `end`.
   std::size_t begin, end;
 };
 

@@ -19,7 +19,7 @@ bool states_columns(const std::vector<TextLine>& lines, std::size_t comment_line
   return comment_line < lines.size() && parse_columns(lines[comment_line].text, valid);
 }
 
-// The columns that the frame's comment states, or "element x y z".
+// Returns the columns that the comment of the frame states, or "element x y z".
 XyzColumns columns_of(const std::vector<TextLine>& lines, const XyzFrame& frame, ImportReport& report) {
   if (frame.comment_line >= lines.size()) return {};
   const TextLine& comment = lines[frame.comment_line];
@@ -82,7 +82,8 @@ void import_frame(const std::vector<TextLine>& lines, const XyzFrame& frame, con
   }
 }
 
-// The text without the count, and the comment if there is one, before its points. Lines keep their numbers.
+// Returns the text without the count before its points, and without the comment if there is one. Lines keep their
+// numbers.
 std::string without_header(const std::string& text, const std::vector<TextLine>& lines, std::size_t header_line) {
   std::size_t first = header_line + 1;
   if (!are_numbers(split_fields(lines[first].text))) ++first;

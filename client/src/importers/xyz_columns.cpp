@@ -32,7 +32,7 @@ void drop_blanks(absl::string_view& rest) {
   rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(kBlankCharacters)));
 }
 
-// The value of a key in a text such as `key=value key2="a b" flag`, with or without blanks around "=".
+// Returns the value of a key in a text such as `key=value key2="a b" flag`, with or without blanks around "=".
 std::optional<absl::string_view> value_of(absl::string_view comment, absl::string_view wanted) {
   absl::string_view rest = comment;
   for (drop_blanks(rest); !rest.empty(); drop_blanks(rest)) {

@@ -10,10 +10,10 @@
 namespace isofield {
 namespace {
 
-// A bohr in angstrom.
+// The length of a bohr in angstrom.
 constexpr double kBohr = 0.529177210903;
 
-// True for "element x y z" with a known element.
+// Returns true for "element x y z" with a known element.
 bool is_atom(absl::string_view line) {
   const auto fields = split_fields(line);
   glm::dvec3 center;
@@ -25,7 +25,7 @@ bool is_lone_count(absl::string_view line) {
   return fields.size() == 1 && parse_header(line);
 }
 
-// True where exactly `count` lines from this one on are atoms.
+// Returns true where exactly `count` lines from this one on are atoms.
 bool holds_atoms(const std::vector<TextLine>& lines, std::size_t first, long long count) {
   long long atoms = 0;
   for (std::size_t at = first; at < lines.size() && atoms <= count && is_atom(lines[at].text); ++at) ++atoms;

@@ -35,7 +35,7 @@ Separator find_separator(absl::string_view line) {
   const std::size_t tabs = count_outside_quotes(line, '\t');
   // Commas in a line of several semicolons are decimal commas. A single semicolon among commas belongs to a text.
   if (semicolons > 1 || (semicolons > 0 && commas == 0)) return ';';
-  // With at least as many commas as tabs, the commas separate the cells and the tabs are blanks around them.
+  // If there are at least as many commas as tabs, the commas separate the cells and the tabs are blanks around them.
   if (commas > 0 && tabs <= commas) return ',';
   if (tabs == 0) return kBlanks;
   // Names that tabs separate may have blanks in them, but numbers have none.
@@ -47,7 +47,7 @@ const char* cell_end(const char* begin, const char* end, Separator separator) {
   const char* at = begin;
   while (at != end && (*at == ' ' || (*at == '\t' && separator != '\t'))) ++at;
   if (at != end && *at == '"') {
-    // A doubled quote ends the quotes and begins them again, which comes to the same.
+    // A doubled quote closes the quotes and opens them again, which gives the same end.
     bool quoted = false;
     for (; at != end && (quoted || *at != separator); ++at) quoted = quoted != (*at == '"');
     return at;

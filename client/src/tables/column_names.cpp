@@ -27,7 +27,7 @@ bool is_one_of(absl::string_view word, std::span<const char* const> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// How three columns may be named: the axis stands after `letter` ("dx"), or beside one of `words` ("pos x").
+// The names that three columns may have: the axis stands after `letter` ("dx"), or beside one of `words` ("pos x").
 struct Family {
   absl::string_view letter;
   std::span<const char* const> words;
@@ -39,7 +39,7 @@ const Family kOrigins{"o", kOriginWords, "ox, oy and oz"};
 const Family kDirections{"d", kDirectionWords, "dx, dy and dz"};
 const Family kNormals{"n", kNormalWords, "nx, ny and nz"};
 
-// The words of a name in lower case, without a unit: "Pos_X [nm]" becomes "pos" and "x".
+// Returns the words of a name in lower case, without a unit: "Pos_X [nm]" becomes "pos" and "x".
 std::vector<std::string> words_of(absl::string_view name) {
   const std::size_t bracket = name.find_first_of("([{/");
   if (bracket != absl::string_view::npos && bracket > 0) name = name.substr(0, bracket);
@@ -76,7 +76,7 @@ std::optional<std::size_t> axis_in(const std::vector<std::string>& words, const 
   }
   if (words.size() != 2) return std::nullopt;
   if (is_one_of(words[0], family.words)) {
-    // "Points:0", as ParaView writes it.
+    // ParaView writes names such as "Points:0".
     const std::string& axis = words[1];
     if (axis.size() == 1 && axis[0] >= '0' && axis[0] <= '2') return static_cast<std::size_t>(axis[0] - '0');
     return axis_of(axis);

@@ -1,3 +1,4 @@
+// Reads numbers from texts.
 #pragma once
 
 #include <absl/strings/string_view.h>
@@ -8,8 +9,8 @@
 
 namespace isofield {
 
-// The slow path of scan_double(): for Fortran's exponents, numbers that a double cannot hold, and texts that are no
-// number.
+// The slow path of scan_double(). It reads exponents of Fortran and numbers that a double cannot hold, and refuses
+// texts that are no number.
 const char* scan_rare_double(const char* begin, const char* end, double& value);
 
 // Reads the number that a text begins with. Infinities, NaN and Fortran's exponents ("1.5D+03") are numbers too.
@@ -25,10 +26,10 @@ inline const char* scan_double(const char* begin, const char* end, double& value
   return is_rare ? scan_rare_double(begin, end, value) : after;
 }
 
-// The whole text as a number. Nothing: it is no number.
+// Returns the whole text as a number, or nothing where it is no number.
 std::optional<double> parse_double(absl::string_view text);
 
-// Like parse_double(), but the number may have a comma in place of the decimal point.
+// Does the same, but the number may have a comma in place of the decimal point.
 std::optional<double> parse_decimal_comma(absl::string_view text);
 
 }  // namespace isofield

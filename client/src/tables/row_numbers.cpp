@@ -39,7 +39,7 @@ bool has_comma_between_digits(absl::string_view text) {
   return false;
 }
 
-// True where commas in the row could be decimal commas.
+// Returns true where commas in the row could be decimal commas.
 bool has_decimal_commas(absl::string_view row) {
   return row.find_first_of(" \t") != absl::string_view::npos && has_comma_between_digits(row);
 }
@@ -75,7 +75,8 @@ RowNumbers::RowNumbers(Separator separator, std::vector<std::size_t> places, Col
   }
 }
 
-// Reads the number at the start of a cell. Returns its end, after closing quotes if it is quoted; nullptr: it is none.
+// Reads the number at the start of a cell. Returns its end, which is after the closing quotes if it is quoted, or
+// nullptr where there is no number.
 const char* RowNumbers::scan_cell(const char* begin, const char* end, double& value) const {
   if (begin != end && *begin == '"') {
     const char* const close = std::find(begin + 1, end, '"');
@@ -94,7 +95,8 @@ const char* RowNumbers::scan_cell(const char* begin, const char* end, double& va
 }
 
 // The fast path, for rows as programs write them: the wanted columns come first, with one separator and nothing else
-// between them. `at` is the start of the row, and becomes the end of the last wanted cell. False: the row is different.
+// between them. `at` is the start of the row, and becomes the end of the last wanted cell. Returns false where the row
+// is different.
 bool RowNumbers::parse_plain(const char*& at, const char* end, double* numbers) const {
   for (std::size_t i = 0; i < wanted_; ++i) {
     if (i > 0 && (at == end || *at++ != separator_)) return false;
@@ -181,7 +183,7 @@ absl::Status RowNumbers::refuse(absl::string_view row, std::size_t column) const
     expected = wanted_ == 3 ? "expected three numbers x,y,z" : absl::StrCat("expected a number in column ", column + 1);
   }
   if (separator_ != ';' && has_decimal_commas(absl::StripAsciiWhitespace(row))) {
-    absl::StrAppend(&expected, "; decimal commas are read only where semicolons part the cells");
+    absl::StrAppend(&expected, "; decimal commas are read only where semicolons separate the cells");
   }
   return absl::InvalidArgumentError(expected);
 }

@@ -1,3 +1,4 @@
+// Reads numbers from the rows of tables.
 #pragma once
 
 #include <absl/status/status.h>
@@ -11,11 +12,13 @@
 
 namespace isofield {
 
-// Reads the numbers in some columns of a table's rows, without parsing the other columns.
+// Reads the numbers in some columns of the rows of a table, without parsing the other columns. Any number of threads
+// may call parse() at the same time.
 class RowNumbers {
  public:
-  // `places` has the column of each number that parse() returns; no column twice. `names` has the names of all columns.
-  // It is empty where there is no header; then a row may have further columns after the last of the places.
+  // `places` has the index of the column of each number that parse() returns; no column is there twice. `names` has the
+  // names of all columns. It is empty where there is no header; then a row may have further columns after the last of
+  // the places.
   RowNumbers(Separator separator, std::vector<std::size_t> places, ColumnNames names);
 
   // Writes as many numbers as there are places; they may be infinite or NaN. INVALID_ARGUMENT: a cell is missing or no
@@ -31,7 +34,7 @@ class RowNumbers {
   const Separator separator_;
   const ColumnNames names_;
   const std::size_t wanted_;
-  // For each column up to the last wanted one: the index of the number that it holds, or kIgnored.
+  // The index of the number that each column holds, or kIgnored, for the columns up to the last one that is wanted.
   std::vector<int> number_of_;
   // True where the wanted numbers are the first columns, in their order.
   bool is_plain_ = true;

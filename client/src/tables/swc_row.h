@@ -1,3 +1,4 @@
+// Recognises the lines of SWC files.
 #pragma once
 
 #include <absl/strings/string_view.h>
@@ -14,8 +15,8 @@ struct SwcRow {
   bool is_root = false;
 };
 
-// Reads a line "id type x y z radius parent", which may have further fields. Nothing: the line is another, or id, type
-// or parent is no whole number.
+// Reads a line "id type x y z radius parent", which may have further fields. Returns nothing where it is another line,
+// or where id, type or parent is not a whole number.
 std::optional<SwcRow> swc_row(absl::string_view line);
 
 }  // namespace isofield

@@ -7,7 +7,7 @@
 namespace isofield {
 namespace {
 
-// The text of a comment line; nothing for any other line.
+// Returns the text of a comment line, or nothing for any other line.
 std::optional<absl::string_view> comment_text(absl::string_view line) {
   if (absl::ConsumePrefix(&line, "//")) return line;
   const std::size_t text = line.find_first_not_of("#%");
@@ -26,7 +26,7 @@ bool names_position(absl::string_view line) {
   return find_vector(ColumnNames(cells.begin(), cells.end()), VectorRole::kPosition).ok();
 }
 
-// True where the first cell that is not empty is no number.
+// Returns true where the first cell that is not empty is no number.
 bool is_header(absl::string_view line, Separator separator) {
   for (const absl::string_view cell : split_cells(line, separator)) {
     if (!cell.empty()) return !cell_number(cell, ';') || names_position(line);

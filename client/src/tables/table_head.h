@@ -1,3 +1,4 @@
+// Finds the header of a table, its separator and its first row.
 #pragma once
 
 #include <absl/strings/string_view.h>
@@ -9,21 +10,22 @@
 
 namespace isofield {
 
-// True for lines that hold nothing: blank ones, and those that begin with '#', '%' or "//".
+// Returns true for lines that hold nothing: blank ones, and those that begin with '#', '%' or "//".
 bool is_comment(absl::string_view line);
 
-// What the lines before the first row of a table say: the columns' names and separator. It takes line after line until
-// the first row comes.
+// Reads the lines before the first row of a table, which may state the names of the columns and the separator. It takes
+// line after line until the first row comes.
 //  - A first line that begins with no number is a header, with the names of the columns.
 //  - The last comment before the first row is a header too, where it names x, y and z and has a name for each cell of
 //    that row: "# x y z", "//X Y Z".
 //  - A line "sep=;" before these, which spreadsheets write, is skipped.
 class TableHead {
  public:
-  // False: `line` is not a row. True: `line` is the first row, and everything is known; this must not be called again.
+  // Returns false where `line` is not a row. Returns true where `line` is the first row: everything is then known, and
+  // this must not be called again.
   bool take(absl::string_view line);
 
-  // Empty where there is no header.
+  // The names of the columns; there are none where there is no header.
   const ColumnNames& names() const { return names_; }
   Separator separator() const { return separator_; }
   // The number of cells in the first row. An empty cell after a separator at the line's end does not count.

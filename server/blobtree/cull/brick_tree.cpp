@@ -6,7 +6,7 @@
 namespace isofield::blobtree {
 namespace {
 
-// False: the ray runs beside the slab.
+// Returns false if the ray runs parallel to the slab and outside of it.
 bool clip_axis(double origin, double direction, double low, double high, RaySpan& span) {
   if (direction == 0) return low <= origin && origin < high;
   const double a = (low - origin) / direction, b = (high - origin) / direction;
@@ -53,7 +53,7 @@ BrickTree::BrickTree(const Lattice& lattice, const std::vector<Brick>& bricks)
 struct BrickTree::Walk {
   const Ray& ray;
   const RaySpan within;
-  const std::uint32_t nearest;  // octant that the ray meets first, where it meets all
+  const std::uint32_t nearest;  // the octant that the ray meets first, if it meets all
   const std::size_t most;
   std::vector<RaySpan>& spans;
   std::size_t bricks = 0;
@@ -68,16 +68,16 @@ std::size_t BrickTree::walk(const Ray& ray, RaySpan within, std::size_t most, st
   return walk.bricks;
 }
 
-// False: enough. Recurses as deep as the tree, 22 levels at most.
+// Returns false when enough bricks are met. The recursion is as deep as the tree, which has 22 levels at most.
 bool BrickTree::descend(Walk& walk, std::size_t level, std::uint32_t node, const Cell& cell) const {
   const Node& n = levels_[level][node];
   const auto side = static_cast<double>(std::uint64_t{1} << level);
-  // Of two octants that a ray meets, the one that differs from `nearest` in a subset of the other's axes comes first.
+  // If a ray meets two octants, the one that differs from `nearest` in a subset of the other's axes comes first.
   for (std::uint32_t o = 0; o < 8; ++o) {
     const std::uint32_t octant = o ^ walk.nearest;
     if ((n.present >> octant & 1) == 0) continue;
     const Cell c{2 * cell.x + (octant & 1), 2 * cell.y + (octant >> 1 & 1), 2 * cell.z + (octant >> 2)};
-    // Neighbours compute the plane between them from the same numbers.
+    // Neighbours compute the plane between them from the same numbers, so that the stretches in them touch exactly.
     const Box box{
         {origin_.x + step_.x * (side * c.x), origin_.y + step_.y * (side * c.y), origin_.z + step_.z * (side * c.z)},
         {origin_.x + step_.x * (side * (c.x + 1.0)), origin_.y + step_.y * (side * (c.y + 1.0)),

@@ -8,9 +8,9 @@ namespace {
 
 using operators::Form;
 
-// Operands in their order; unions.
+// Bounds a union, whose operands come in their order.
 Interval union_interval(Opcode op, const Operation& o, const Interval& a, const Interval& b) {
-  // Large scenes are mostly sums, of which the way through the table would cost as much as the sum.
+  // Large scenes are mostly sums, and finding the kind of the operator would cost as much as the sum.
   if (op == Opcode::kSum) return operators::Sum().bound(a, b);
   if (op == Opcode::kSubtract) return operators::Difference::bound_positive(a, b);
   return o.what->visit([&]<class K>(const K& kind) -> Interval {
@@ -24,7 +24,7 @@ Interval union_interval(Opcode op, const Operation& o, const Interval& a, const 
   });
 }
 
-// Turns the operands of a joint operator inside out where its form says so.
+// Takes the complements of a joint operator's operands if its form asks for them.
 void turn(const Mode& mode, std::uint32_t mask, std::vector<Interval>& x) {
   if (mode.form == Form::kUnion) return;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -58,7 +58,7 @@ Interval binary_interval(Opcode op, const Operation& o, const Mode& mode, Interv
     if (std::min(first.lo, second.lo) >= 1) r.lo = std::min(first.lo, second.lo);
     if (std::min(first.hi, second.hi) >= 1) r.hi = std::min(first.hi, second.hi);
   }
-  // The complements round, too.
+  // The complements are rounded, too.
   return {mode.is_signed ? r.lo : std::max(r.lo - kValueRoom, 0.0), r.hi <= 0 ? r.hi : r.hi + kValueRoom};
 }
 
@@ -83,7 +83,7 @@ std::uint32_t active_operands(const Operation& o, const Mode& mode, std::uint32_
       return mask;
     }
   });
-  // What is left of a difference is never its subtrahends alone.
+  // The subtrahends alone are never what is left of a difference.
   return mode.form == Form::kDifference ? active | (mask & 1) : active;
 }
 
@@ -98,7 +98,7 @@ int lone_operand(const Operation& o, const Mode& mode, Interval a, Interval b) {
       return -1;
     }
   });
-  // A subtrahend alone is turned round.
+  // A lone subtrahend is not the result itself, but its complement.
   return lone == 1 && mode.form == Form::kDifference ? -1 : lone;
 }
 

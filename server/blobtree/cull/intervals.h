@@ -1,4 +1,5 @@
-// Bounds of operators over intervals of their operands: what culling decides with.
+// These functions bound the results of operators from intervals of their operands. Culling decides with them what is
+// left of a tape in a box.
 #pragma once
 
 #include <vector>
@@ -11,20 +12,23 @@ namespace isofield::blobtree {
 
 using base::kValueRoom;
 
-// 1 - i, or -i.
+// Returns the interval of 1 - i for positive fields, or of -i for signed ones.
 Interval complement(const Interval& i, bool is_signed);
 
-// Of two operands in their order, in the form of `mode`. Bounds hold for the device's float32 results too.
+// Returns bounds of an operator of two operands. `a` is the left operand and `b` the right one; `mode` has the form,
+// and says whether they are exchanged. The bounds hold for the device's float32 results, too.
 Interval binary_interval(Opcode op, const Operation& o, const Mode& mode, Interval a, Interval b);
 
-// Of an operator that takes all its operands at once, of those in `mask`, whose intervals come in their order.
+// Returns bounds of an operator that takes all its operands at once. `mask` has a bit for each operand that is left,
+// and `operands` has their intervals in order.
 Interval joint_interval(const Operation& o, const Mode& mode, std::uint32_t mask, std::vector<Interval> operands);
 
-// Which of the operands in `mask` can make a difference to a joint operator of such operands.
+// Returns those of the operands in `mask` that can make a difference to the result of a joint operator.
 std::uint32_t active_operands(const Operation& o, const Mode& mode, std::uint32_t mask, std::vector<Interval> operands);
 
-// The operand, 0 or 1, that alone makes the result, over its weight; or -1 where both may. `a` and `b` as for
-// binary_interval.
+// Returns the operand that alone makes the result, which is then that operand over its weight, or -1 if both may. 0 is
+// the first operand of the operator and 1 the second. `a` and `b` are as for binary_interval(). The fields must be
+// signed.
 int lone_operand(const Operation& o, const Mode& mode, Interval a, Interval b);
 
 }  // namespace isofield::blobtree

@@ -15,11 +15,12 @@ bool has_same_code(const Instruction& a, const Instruction& b) {
   return a.code == b.code && a.leaf == b.leaf && a.operation == b.operation && a.index == b.index;
 }
 
-// Levels between cells that are culled by themselves, on any thread, and the whole; and how many a thread takes at
-// once.
+// Cells that lie this many levels below the whole are culled by themselves, on any thread. A thread takes kSharesAtOnce
+// of them at once.
 constexpr std::uint32_t kSharedLevels = 3;
 constexpr std::size_t kSharesAtOnce = 4;
 
+// Culler does the work of one cull(), or that of some of its shares on another thread.
 class Culler {
  public:
   Culler(const Tape& tape, const CullRequest& request) : tape_(tape), request_(request), pruner_(tape) {
@@ -46,24 +47,24 @@ class Culler {
   }
 
  private:
-  // A cell of the hierarchy: 2^level bricks along each edge.
+  // A Cell of the hierarchy has 2^level bricks along each edge.
   struct Cell {
     std::uint32_t level, x, y, z;
-    std::size_t parent;  // in levels_: the tape it starts from
+    std::size_t parent;  // index in levels_ of the tape that it starts from
   };
-  // A tape on the way down, shared by the children of one cell.
+  // A Level is a tape on the way down, which the children of one cell share.
   struct Level {
     std::size_t begin, count;  // in arena_
-    std::size_t stored;        // where it lies in the result, or kNotStored
+    std::size_t stored;        // its place in the result, or kNotStored
   };
 
-  // A cell that is culled by itself, and where its parent's tape lies in shared_code_.
+  // A Share is a cell that is culled by itself, with the place of its parent's tape in shared_code_.
   struct Share {
     Cell cell;
     std::size_t begin, count;
   };
 
-  // From the cell on, whose parent has this tape.
+  // Culls the cell `from` and all below it. `code` is the tape of the cell's parent.
   absl::Status descend(Cell from, std::span<const Instruction> code) {
     arena_.assign(code.begin(), code.end());
     levels_.assign(1, {0, arena_.size(), kNotStored});
@@ -105,8 +106,8 @@ class Culler {
     shares_.push_back({cell, parent.stored, parent.count});
   }
 
-  // What was put aside, on all threads: the list is as one thread makes it, but that tapes which several shares have in
-  // common stand in it once for each.
+  // Culls on all threads the cells that were put aside. The list is the one that a single thread makes, except that a
+  // tape that several shares have in common stands in it once for each of them.
   absl::Status share() {
     const std::size_t parts = (shares_.size() + kSharesAtOnce - 1) / kSharesAtOnce;
     std::vector<absl::StatusOr<BrickList>> lists(parts, BrickList{});
@@ -132,7 +133,7 @@ class Culler {
     return absl::OkStatus();
   }
 
-  // Of the wanted bricks in the cell: where these are few, their tape is short from the first cell on.
+  // Returns the box of the wanted bricks in the cell, so that a few bricks have a short tape from the first cell on.
   Box box_of(const Cell& cell) const {
     const auto first = [&](std::uint32_t i, int axis) { return std::max(i << cell.level, wanted_.low[axis]); };
     const auto last = [&](std::uint32_t i, int axis) {
@@ -164,7 +165,7 @@ class Culler {
   }
 
   void visit(const Cell& cell) {
-    // Cells are visited depth first, so what lies above the parent's tape in the arena is done with.
+    // Cells are visited depth first, so that whatever lies above the parent's tape in the arena is no longer needed.
     levels_.resize(cell.parent + 1);
     const Level parent = levels_[cell.parent];
     const std::size_t begin = parent.begin + parent.count;
@@ -172,7 +173,7 @@ class Culler {
     const Pruned pruned = pruner_.prune(arena_, parent.begin, parent.count, box_of(cell), arena_);
     if (!is_kept(cell, pruned)) return;
     const std::size_t count = arena_.size() - begin;
-    // Nothing dropped out: go on with the parent's, which may be in the result already.
+    // If nothing dropped out, the children use the parent's tape, which may be in the result already.
     const bool same = count == parent.count &&
                       std::equal(arena_.begin() + begin, arena_.end(), arena_.begin() + parent.begin, has_same_code);
     if (cell.level == 0) {
@@ -199,7 +200,7 @@ class Culler {
     }
   }
 
-  // Whether some of the wanted bricks may be in a cell of so many along each edge.
+  // Returns whether some of the wanted bricks may be in a cell of `bricks` bricks along each edge.
   bool is_wanted(const Cell& c, std::uint32_t bricks) const {
     if (c.level == 0 && request_.within && !request_.within->contains(c.x, c.y, c.z)) return false;
     return meets(c.x, bricks, 0) && meets(c.y, bricks, 1) && meets(c.z, bricks, 2);
@@ -226,7 +227,7 @@ class Culler {
   std::vector<Level> levels_;
   std::vector<Cell> stack_;
   std::uint32_t ticks_ = 0;
-  std::optional<std::uint32_t> shared_level_;  // of cells that are put aside
+  std::optional<std::uint32_t> shared_level_;  // level of the cells that are put aside
   std::vector<Share> shares_;
   std::vector<Instruction> shared_code_;
   BrickList list_;
@@ -239,7 +240,7 @@ absl::StatusOr<BrickList> cull(const Tape& tape, const CullRequest& request) {
 }
 
 BrickSet bricks_of(const Leaf& leaf, const Lattice& lattice) {
-  constexpr double kRoom = 1e-3;  // of a brick, for rounding
+  constexpr double kRoom = 1e-3;  // part of a brick, for rounding
   BrickBox around;
   const auto along = [&](int axis, double low, double high, double origin, double spacing) {
     const double size = spacing * kBrickCells;

@@ -1,4 +1,4 @@
-// Which primitive a point of the surface belongs to.
+// nearest_leaves() finds the primitive that a point of the surface belongs to.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ namespace isofield::blobtree {
 
 inline constexpr std::uint32_t kNoLeaf = ~0u;
 
-// For each point the place in tape.leaves of the primitive whose own surface is nearest to it, among those whose field
-// makes a difference there; kNoLeaf where there is none. Of equally near ones the first. `xyz` holds 3 finite numbers a
-// point.
+// Returns for each point the index in tape.leaves of the primitive whose own surface is nearest to it, among those
+// whose field makes a difference there; kNoLeaf if there is none. The first one counts if several are equally near.
+// `xyz` holds 3 finite numbers for each point.
 std::vector<std::uint32_t> nearest_leaves(const Tape& tape, std::span<const float> xyz);
 
 }  // namespace isofield::blobtree

@@ -8,11 +8,12 @@
 namespace isofield::blobtree {
 namespace {
 
-// Instructions a tape may have for its points to be evaluated without more sorting, and points that a group is not
-// split below: a split costs about as much as evaluating some tens of point-instructions a point.
+// The points of a tape of at most kShortTape instructions are evaluated without more sorting, and a group of at most
+// kSmallGroup points is not split. A split costs each point about as much as some tens of instructions.
 constexpr std::size_t kShortTape = kUnsortedInstructions / 2;
 constexpr std::uint32_t kSmallGroup = 48;
 
+// Binner does the work of one bin_points().
 class Binner {
  public:
   Binner(const Tape& tape, std::span<const float> xyz) : xyz_(xyz), pruner_(tape), tape_(tape) {}
@@ -48,7 +49,7 @@ class Binner {
  private:
   struct Range {
     std::uint32_t first, count;
-    std::size_t parent;  // in levels_
+    std::size_t parent;  // index in levels_
   };
   struct Level {
     std::size_t begin, count;  // in arena_

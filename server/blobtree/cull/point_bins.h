@@ -1,4 +1,4 @@
-// Sorts a batch of points into groups that lie close together, each with a pruned tape.
+// bin_points() sorts a batch of points into groups that lie close together, each with a pruned tape.
 #pragma once
 
 #include <cstddef>
@@ -12,28 +12,31 @@
 
 namespace isofield::blobtree {
 
-// Of a batch: with its place there. What reads points in another order than the batch's finds these side by side.
+// PlacedPoint is a point of a batch with its place in the batch. Code that reads the points in another order than the
+// batch's finds both side by side.
 struct PlacedPoint {
   float x, y, z;
   std::uint32_t place;
 };
 
+// A PointGroup is a group of points that share a pruned tape.
 struct PointGroup {
-  std::uint32_t first, count;            // in PointBins::points
-  std::uint32_t tape_begin, tape_count;  // 0 instructions: the field is 0
+  std::uint32_t first, count;            // range in PointBins::points
+  std::uint32_t tape_begin, tape_count;  // range in PointBins::code; if it is empty, the field is 0
 };
 
+// PointBins is the result of bin_points().
 struct PointBins {
-  std::unique_ptr<PlacedPoint[]> points;  // null: the batch as it is, in one group
-  std::vector<PointGroup> groups;         // that hold every point once
+  std::unique_ptr<PlacedPoint[]> points;  // null if the batch stays as it is, in one group
+  std::vector<PointGroup> groups;         // hold every point once
   std::vector<Instruction> code;
 };
 
-// Tapes of so few instructions are not worth sorting points for.
+// Sorting points is not worth while for tapes of at most this many instructions.
 inline constexpr std::size_t kUnsortedInstructions = 12;
 
-// `xyz` holds 3 numbers a point, of which those that are not finite are taken for 0. All of them are one group where
-// the tape is not worth sorting for.
+// Sorts the points into groups. `xyz` holds 3 numbers for each point; numbers that are not finite are taken for 0. All
+// points are one group if the tape is not worth sorting for.
 PointBins bin_points(const Tape& tape, std::span<const float> xyz);
 
 }  // namespace isofield::blobtree

@@ -10,12 +10,14 @@
 namespace isofield::blobtree {
 namespace {
 
-// Bricks along the longest edge: a few a primitive. More make for shorter tapes, and fewer points each: measured with
-// 1,000 spheres, twice as many along take a fifth longer.
+// The number of bricks along the longest edge makes for a few bricks for each primitive. More bricks have shorter
+// tapes, but fewer points each: measured with 1,000 spheres, twice as many along an edge take a fifth longer.
 constexpr double kBricksAlongPerRoot = 1.6, kLeastAlong = 16, kMostAlong = 64;
-// Of a brick, by which the boxes that tapes are pruned for overlap: float32 finds a point's brick within this.
+// The boxes that tapes are pruned for overlap by this part of a brick, because float32 finds a point's brick within
+// this.
 constexpr double kRoom = 1e-3;
-// Points that are worth a thread's while, and parts for several threads to share evenly.
+// A part has enough points to be worth a thread's while, and there are enough parts for several threads to share
+// evenly.
 constexpr std::size_t kLeastPart = 1u << 13, kMostParts = 8;
 
 }  // namespace
@@ -23,13 +25,13 @@ constexpr std::size_t kLeastPart = 1u << 13, kMostParts = 8;
 absl::StatusOr<PointGrid> PointGrid::make(const Tape& tape, BrickList& bricks, const std::function<bool()>& cancelled) {
   const Box& box = tape.support;
   const double longest = box.empty() ? 0 : longest_edge(box);
-  // Outside of the grid the field is taken to be 0, which positive fields alone are.
+  // Outside of the grid the field is taken to be 0, which is true of positive fields alone.
   if (tape.law != operators::Law::kPositive || !box.is_bounded() || !(longest > 0)) {
     return absl::FailedPreconditionError("the scene's field is signed, or its support is empty or has no end");
   }
   const double along =
       std::clamp(kBricksAlongPerRoot * std::cbrt(static_cast<double>(tape.leaves.size())), kLeastAlong, kMostAlong);
-  // Of float32 numbers, as sort() computes with.
+  // The step is a float32 number, because sort() computes in float32.
   const auto step = static_cast<double>(static_cast<float>(longest / along * 1.0001));
   PointGrid grid;
   grid.per_step_ = static_cast<float>(1 / step);
@@ -78,7 +80,7 @@ PointGrid::Sorted PointGrid::sort(std::span<const float> xyz, const base::ForEac
     part(0);
   };
   const auto bin_of = std::make_unique_for_overwrite<std::uint32_t[]>(count);
-  // Of each part: how many of its points are in a bin, then where there the next of them goes.
+  // places[part] first has the number of the part's points in each bin, and then the place of the next one of them.
   std::vector<std::vector<std::uint32_t>> places(parts);
   in_parts([&](std::size_t part, std::size_t begin, std::size_t end) {
     places[part].assign(bins, 0);

@@ -1,5 +1,5 @@
-// A grid over a scene's support whose bricks each have their pruned tape, made once for many batches of points: a batch
-// is sorted by brick in two passes, where bin_points() prunes anew for each.
+// PointGrid is a grid over a scene's support whose bricks each have a pruned tape. It is made once for many batches of
+// points: a batch is sorted by brick in two passes, while bin_points() prunes anew for each.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -18,21 +18,21 @@
 
 namespace isofield::blobtree {
 
-// Immutable once made: any number of threads may sort at once.
+// A grid is immutable once made, so that any number of threads may sort at once.
 class PointGrid {
  public:
-  // FAILED_PRECONDITION: the field is signed, or its support is empty or has no end. RESOURCE_EXHAUSTED: the bricks'
-  // tapes take more than kMostInstructions, since most primitives overlap. CANCELLED.
-  // `bricks` becomes those where the field may differ from 0.
+  // Makes the grid of a tape, and sets `bricks` to those bricks where the field may differ from 0. FAILED_PRECONDITION:
+  // the field is signed, or its support is empty or unbounded. RESOURCE_EXHAUSTED: the bricks' tapes take more than
+  // kMostInstructions, since most primitives overlap. CANCELLED: `cancelled` has returned true.
   static absl::StatusOr<PointGrid> make(const Tape& tape, BrickList& bricks, const std::function<bool()>& cancelled);
   static constexpr std::size_t kMostInstructions = 1u << 21;
 
   struct Sorted {
-    std::unique_ptr<PlacedPoint[]> points;  // by brick
-    std::vector<std::uint32_t> starts;      // where each brick's begin, those in no brick's, and the end
+    std::unique_ptr<PlacedPoint[]> points;  // sorted by brick
+    std::vector<std::uint32_t> starts;      // where the points of each brick begin, those of no brick, and the end
   };
-  // `xyz` holds 3 numbers a point; where they are not finite, the point is in any bin. Within a brick they keep their
-  // order.
+  // Sorts the points by brick. `xyz` holds 3 numbers for each point; a point with numbers that are not finite may be in
+  // any bin. The points of a brick keep their order.
   Sorted sort(std::span<const float> xyz, const base::ForEach& for_each = {}) const;
 
  private:
@@ -41,8 +41,8 @@ class PointGrid {
   std::array<float, 3> origin_{};
   float per_step_ = 0;
   std::array<std::uint32_t, 3> counts_{};
-  std::vector<std::uint32_t> places_;  // of the grid's bricks in the list of them, x fastest; its size: none
-  std::uint32_t bricks_ = 0;           // in the list
+  std::vector<std::uint32_t> places_;  // index in the list of each brick of the grid, x fastest; bricks_ if it has none
+  std::uint32_t bricks_ = 0;           // number of bricks in the list
 };
 
 }  // namespace isofield::blobtree

@@ -19,7 +19,7 @@ Instruction with_operand(Instruction i, Operand operand) {
   return i;
 }
 
-// Whether each opcode takes all of its operands at once, by its number.
+// kIsJoint tells whether each opcode, by its number, takes all of its operands at once.
 constexpr auto kIsJoint = [] {
   std::array<bool, operators::kOpcodes.size()> is_joint{};
   for (std::size_t i = 0; i < is_joint.size(); ++i) {
@@ -58,7 +58,7 @@ void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vec
     left.range = {0, 0};
     left.is_zero = true;
   };
-  // f - 0 = min(f, 1): only sums and blends pass 1.
+  // f - 0 = min(f, 1), and only sums and blends are above 1.
   const auto clamp = [&] {
     if (left.range.hi <= 1 + 2 * kValueRoom) return;
     out.push_back(with_operator(with_operand(i, Operand::kZero), Opcode::kSubtract));
@@ -66,7 +66,7 @@ void Pruner::join(const Instruction& i, const Value& right, bool fused, std::vec
   };
   const bool left_zero = left.is_zero, right_zero = right.is_zero;
   if (left_zero || right_zero) {
-    // Positive fields. What a form or a difference makes of a 0 depends on which operand it is.
+    // Only positive fields are 0 throughout. The result of a form or a difference depends on which operand is 0.
     const bool is_difference =
         op == Opcode::kSubtract || op == Opcode::kSubtractFrom || mode.form == operators::Form::kDifference;
     const bool left_is_first = op != Opcode::kSubtractFrom && !mode.is_exchanged;
@@ -130,7 +130,7 @@ void Pruner::join_all(const Instruction& i, std::vector<Instruction>& out) {
   const std::size_t begin = stack_[first].begin;
   const std::uint32_t mask = active_operands(o, mode, i.leaf, ranges);
   if (mask != i.leaf) {
-    // Backwards, so that what is yet to go keeps its place.
+    // The loop runs backwards, so that the code that may still be erased keeps its place.
     std::size_t end = out.size();
     std::vector<Interval> left;
     std::size_t at = stack_.size();
@@ -187,7 +187,7 @@ Pruned Pruner::prune(const std::vector<Instruction>& source, std::size_t begin, 
     } else if (i.is_leaf()) {
       bound_leaf(tape_.leaves[i.index], box, centred, right);
     } else {
-      // The constant 0: what is taken away where nothing is left to take, or what a conversion starts from.
+      // The operand is the constant 0: nothing is left to be taken away, or a conversion starts from 0.
       right.is_zero = i.op() != Opcode::kPush;
     }
     if (i.op() == Opcode::kPush) {

@@ -7,7 +7,7 @@
 namespace isofield::blobtree {
 namespace {
 
-// glm stores columns; rows go in transposed and come out transposed.
+// glm stores matrices by columns, so the rows are transposed on the way in and on the way out.
 glm::dmat3 to_glm(const std::array<dvec3, 3>& rows) {
   glm::dmat3 m;
   for (int r = 0; r < 3; ++r) m[0][r] = rows[r].x, m[1][r] = rows[r].y, m[2][r] = rows[r].z;
@@ -35,7 +35,7 @@ std::optional<Affine> Affine::inverse() const {
 }
 
 Affine::Stretch Affine::stretch() const {
-  // Singular values are the roots of the eigenvalues of A^T A: Jacobi rotations until it is diagonal.
+  // The singular values are the square roots of the eigenvalues of A^T A. Jacobi rotations make this matrix diagonal.
   const glm::dmat3 m = to_glm(linear);
   glm::dmat3 s = glm::transpose(m) * m;
   bool is_diagonal = false;

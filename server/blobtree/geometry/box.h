@@ -1,4 +1,5 @@
-// Boxes with axis-parallel edges.
+// Box is a box with axis-parallel edges in double precision. Boxes hold the supports of fields and the regions over
+// which culling bounds a field.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +10,17 @@
 
 namespace isofield::blobtree {
 
-// Empty until something is added.
+// A new box is empty until something is added to it.
 struct Box {
   dvec3 min{std::numeric_limits<double>::infinity()};
   dvec3 max{-std::numeric_limits<double>::infinity()};
 
-  // Holds all of space.
+  // Returns the box that holds all of space.
   static Box everywhere() {
     return {dvec3(-std::numeric_limits<double>::infinity()), dvec3(std::numeric_limits<double>::infinity())};
   }
 
-  // Whether it ends on every side. An empty box does not.
+  // Returns whether the box is finite on every side. An empty box is not.
   bool is_bounded() const {
     const auto ends = [](double x) { return std::isfinite(x); };
     return ends(min.x) && ends(min.y) && ends(min.z) && ends(max.x) && ends(max.y) && ends(max.z);
@@ -36,13 +37,13 @@ struct Box {
   }
 };
 
-// A box by its centre.
+// CentredBox describes a box by its centre and half its size, as the bounds of leaves need it.
 struct CentredBox {
   explicit CentredBox(const Box& box)
       : centre((box.min + box.max) * 0.5), half((box.max - box.min) * 0.5), radius(length(half)) {}
 
   dvec3 centre, half;
-  double radius;  // of the ball that holds it
+  double radius;  // of the ball around the centre that holds the box
 };
 
 }  // namespace isofield::blobtree

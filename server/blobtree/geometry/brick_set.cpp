@@ -21,7 +21,7 @@ BrickSet BrickSet::grown(std::uint32_t below, std::uint32_t above) const {
   if (members_.empty()) return box;
   BrickSet set(box, [this](std::uint32_t x, std::uint32_t y, std::uint32_t z) { return contains(x, y, z); });
   if (set.members_.empty()) return set;
-  // One axis after the other: a line's members are spread to where they reach.
+  // The axes are handled one after the other: along each line, a member is spread to the bricks that it reaches.
   std::size_t stride = 1;
   std::vector<char> line;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Which bricks of a lattice: those of a box, or some of them.
+// BrickSet is a set of bricks of a lattice: all bricks of a box, or some of them. BrickBox is a box of bricks.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace isofield::blobtree {
 
-// Bricks from `low` on and below `high`, along x, y and z.
+// The box holds the bricks from `low` on and below `high`, along x, y and z.
 struct BrickBox {
   std::array<std::uint32_t, 3> low{}, high{};
 
@@ -25,10 +25,10 @@ bool meet(const BrickBox& a, const BrickBox& b);
 
 class BrickSet {
  public:
-  // All of a box.
+  // Makes a set of all bricks of the box.
   BrickSet(const BrickBox& box) : box_(box) {}
-  // Those of a box for which is_member(x, y, z). All, where the box holds more than are told apart: every use of a set
-  // is right with more bricks, too.
+  // Makes a set of the bricks of the box for which is_member(x, y, z) is true. A box of more than kMostToldApart bricks
+  // is taken whole, because every use of a set stays right when the set has more bricks.
   template <class Member>
   BrickSet(const BrickBox& box, const Member& is_member) : box_(box) {
     if (box.is_empty() || volume() > kMostToldApart) return;
@@ -45,7 +45,8 @@ class BrickSet {
   bool contains(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
     return box_.contains(x, y, z) && (members_.empty() || members_[place(x, y, z)] != 0);
   }
-  // With the bricks up to so many before and after each member, along every axis and all at once.
+  // Returns this set together with the bricks up to `below` before and up to `above` after each member along every
+  // axis, diagonal neighbours included.
   BrickSet grown(std::uint32_t below, std::uint32_t above) const;
   BrickSet joined(const BrickSet& other) const;
 
@@ -65,7 +66,7 @@ class BrickSet {
   }
 
   BrickBox box_;
-  std::vector<char> members_;  // by place; none: all
+  std::vector<char> members_;  // by place(); empty if all bricks of the box are members
 };
 
 }  // namespace isofield::blobtree

@@ -1,4 +1,4 @@
-// Vectors of space, in double precision.
+// dvec3 is a point or a vector of space in double precision.
 #pragma once
 
 #include <cmath>
@@ -7,10 +7,11 @@
 
 namespace isofield::blobtree {
 
-// Without a value it is 0: GLM_FORCE_CTOR_INIT is defined for the whole server.
+// A vector without a value is 0, because GLM_FORCE_CTOR_INIT is defined for the whole server.
 using dvec3 = glm::dvec3;
 
-// The absolute values of the coordinates. glm::abs() branches on each sign, which the bounds of leaves would feel.
+// Returns the vector of the coordinates' absolute values. glm::abs() branches on each sign, which makes the bounds of
+// leaves slower.
 inline dvec3 absolute(const dvec3& v) {
   return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }

@@ -1,4 +1,4 @@
-// A box with axis-parallel edges, which may be rounded, centred.
+// Box is a primitive: a box with axis-parallel edges, which may be rounded. The origin of its own frame is its centre.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct Box {
   static Box read(const v1::Box& message, FieldReader& in, Affine& frame);
 
   dvec3 half;
-  double rounding = 0;  // the radius of its edges, inside the half size
+  double rounding = 0;  // radius of the rounded edges, which lie within the half size
 
   template <class V>
   typename V::value_type distance(const V& q) const {

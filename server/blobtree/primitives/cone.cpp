@@ -8,7 +8,7 @@
 namespace isofield::blobtree::shapes {
 namespace {
 
-// A radius of an end, which may be 0.
+// Reads the radius of an end, which may be 0.
 double read_radius(const char* field, double radius, FieldReader& in) {
   if (radius == 0) return 0;
   return in.positive(field, radius);
@@ -42,7 +42,7 @@ double Cone::own_lengths() const {
   return half_length + radius_a + radius_b;
 }
 double Cone::least_radius() const {
-  // A tip is as thin as can be; what counts is the solid as a whole.
+  // A tip has no thickness, so the feature size is that of the solid as a whole.
   return std::min(half_length, (radius_a + radius_b) / 2);
 }
 double Cone::area() const {
@@ -53,7 +53,7 @@ double Cone::growth() const {
 }
 
 blobtree::Box Cone::support(const Affine& to_world, double range) const {
-  // The hull of two discs, each of which grows by the range on all sides.
+  // The box holds two discs, each of which grows by the range on all sides.
   const auto disc = [&](double z, double radius) {
     Affine at = to_world;
     at.offset = to_world.point({0, 0, z});

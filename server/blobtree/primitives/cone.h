@@ -1,4 +1,5 @@
-// A solid cone around the z axis with flat ends, centred: a frustum, or a cone with a tip where one radius is 0.
+// Cone is a primitive: a solid cone around the z axis with flat ends, which is a frustum, or has a tip if one radius is
+// 0. The origin of its own frame is the middle of its axis.
 #pragma once
 
 #include <algorithm>
@@ -17,18 +18,18 @@ struct Cone {
   static constexpr PrimitiveTraits kTraits{"cone", true};
   static Cone read(const v1::Cone& message, FieldReader& in, Affine& frame);
 
-  double half_length = 0, radius_a = 0, radius_b = 0;  // radius_a at z = -half_length
+  double half_length = 0, radius_a = 0, radius_b = 0;  // radius_a is at z = -half_length
 
-  // Exact everywhere. In the half-plane of (rho, z) the solid is a trapezoid: a point is nearest to an end, to the
-  // side, or to one of the two rims between them.
+  // The distance is exact everywhere. In the half-plane of (rho, z), where rho is the distance from the axis, the solid
+  // is a trapezoid: a point is nearest to an end, to the side, or to one of the two rims between them.
   template <class V>
   typename V::value_type distance(const V& q) const {
     using base::value_of, std::max, std::sqrt;
     using T = typename V::value_type;
     const Side s = side();
     const T rho = sqrt(q.x * q.x + q.y * q.y);
-    const T from_a = rho - T(radius_a), up_from_a = q.z + T(half_length);  // from the rim of radius_a
-    const T from_b = rho - T(radius_b), above = q.z - T(half_length);      // from the rim of radius_b
+    const T from_a = rho - T(radius_a), up_from_a = q.z + T(half_length);  // offsets from the rim of radius_a
+    const T from_b = rho - T(radius_b), above = q.z - T(half_length);      // offsets from the rim of radius_b
     const T off_side = from_a * T(s.normal_rho) + up_from_a * T(s.normal_z);
     const T along_side = up_from_a * T(s.normal_rho) - from_a * T(s.normal_z);
     if (value_of(above) > 0 && value_of(rho) <= radius_b) return above;
@@ -40,8 +41,8 @@ struct Cone {
     return off_side;
   }
 
-  // The line of the side in that half-plane, from the rim of radius_a to that of radius_b: its outward normal and
-  // length.
+  // Side is the line of the solid's side in that half-plane, from the rim of radius_a to the rim of radius_b: its
+  // outward normal and its length.
   struct Side {
     double normal_rho, normal_z, length;
   };

@@ -1,4 +1,5 @@
-// A solid cylinder around the z axis with flat ends, centred.
+// Cylinder is a primitive: a solid cylinder around the z axis with flat ends. The origin of its own frame is its
+// centre.
 #pragma once
 
 #include <algorithm>

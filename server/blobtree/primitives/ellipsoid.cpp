@@ -43,7 +43,7 @@ Operand Ellipsoid::operand(bool) const {
 }
 
 void Ellipsoid::write(const Domain& domain, Slope slope, Operand, Float4* out) const {
-  // A sphere of the least radius under a map that is scaled further.
+  // The record is that of a sphere of the least radius under a map that is scaled further.
   write_rows(domain, slope, least(), 0, 0, out);
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) out[row + 1][column] *= f32(least() / semi_axes[row]);

@@ -1,5 +1,5 @@
-// An ellipsoid with axis-parallel semi-axes, centred. Its distance is a lower bound outside, exact on the surface
-// (scene.proto, Ellipsoid).
+// Ellipsoid is a primitive: an ellipsoid with axis-parallel semi-axes. The origin of its own frame is its centre. Its
+// distance is a lower bound outside and exact on the surface (scene.proto, Ellipsoid).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The field of a positive primitive at a signed distance (scene.proto, Primitives).
+// soften() gives the field of a positive primitive at a signed distance (scene.proto, Primitives). It falls off to 0 at
+// the range.
 #pragma once
 
 #include <algorithm>
@@ -6,9 +7,9 @@
 
 namespace isofield::blobtree {
 
-inline constexpr double kR0 = 0.45420201894740647;  // sqrt(1 - 2^(-1/3)): where the falloff is 0.5
+inline constexpr double kR0 = 0.45420201894740647;  // sqrt(1 - 2^(-1/3)), where the falloff w is 0.5
 
-// w(clamp(r0 + (1 - r0) d / range, 0, 1)) with w(r) = (1 - r^2)^3, at the signed distance d.
+// Returns w(clamp(r0 + (1 - r0) d / range, 0, 1)) with w(r) = (1 - r^2)^3, at the signed distance d.
 template <class T>
 T soften(const T& d, double range) {
   using std::max, std::min;

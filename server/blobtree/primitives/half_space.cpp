@@ -38,7 +38,7 @@ blobtree::Box HalfSpace::support(const Affine& to_world, double range) const {
   blobtree::Box box = blobtree::Box::everywhere();
   const std::optional<Affine> inverse = to_world.inverse();
   if (!inverse) return box;
-  // Where the plane faces along an axis, that axis ends at the plane, a range further out.
+  // If the plane faces along an axis, the box ends along that axis, one range beyond the plane.
   const dvec3& normal = inverse->linear[2];
   for (int axis = 0; axis < 3; ++axis) {
     if (normal[axis] == 0 || normal[(axis + 1) % 3] != 0 || normal[(axis + 2) % 3] != 0) continue;

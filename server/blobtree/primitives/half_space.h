@@ -1,5 +1,5 @@
-// A half-space: all that lies on one side of a plane, z <= 0. It has no end, so that a model which nothing else bounds
-// is meshed within the bounds that a request states.
+// HalfSpace is a primitive: everything on one side of a plane, z <= 0. It is unbounded, so that a model which nothing
+// else bounds is meshed within the bounds that a request states.
 #pragma once
 
 #include "blobtree/primitives/kind.h"
@@ -27,8 +27,8 @@ struct HalfSpace {
   blobtree::Box support(const Affine& to_world, double range) const;
   Operand operand(bool is_rigid) const;
   void write(const Domain& domain, Slope slope, Operand operand, Float4* out) const;
-  // The point of the plane that is nearest to the world's origin. A stated point may lie anywhere in the plane, and
-  // float32 would lose digits to its coordinates.
+  // Returns the point of the plane that is nearest to the world's origin. The point that a scene states may lie
+  // anywhere in the plane, and float32 would lose digits if its coordinates were large.
   dvec3 anchor(const Domain& domain) const;
   std::optional<Interval> box_bounds(const Domain& domain, const CentredBox& box) const;
 };

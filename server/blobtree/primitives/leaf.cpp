@@ -10,10 +10,10 @@
 namespace isofield::blobtree {
 namespace {
 
-// Computed stretches are within this part of the exact ones; those of a turn, for example, are not quite 1.
+// Computed stretches differ from the exact ones by at most this part; for example, that of a rotation is not exactly 1.
 constexpr double kStretchRounding = 1e-9;
-// What float32 evaluation of a length may differ from exact arithmetic, relative to the coordinates it is computed
-// from.
+// A length that float32 computes differs from the exact one by at most this, relative to the coordinates that it is
+// computed from.
 constexpr double kLengthRoom = 1e-6;
 
 // Grows the box by what float32 may round on the device. An infinite end does not count towards the room of the other
@@ -67,7 +67,7 @@ absl::StatusOr<Leaf> place_leaf(const Primitive& primitive, const Affine& to_wor
   const Affine::Stretch stretch = place.stretch();
   leaf.domain.is_rigid = stretch.most - stretch.least <= kStretchRounding * stretch.most;
   if (leaf.domain.is_rigid) {
-    // Distances scale with the map: scale the lengths instead and keep the placement rigid.
+    // Distances scale with the map, so the lengths are scaled instead and the placement stays rigid.
     const double factor = stretch.most;
     leaf.shape = std::visit([&](const auto& s) -> Shape { return s.scaled(factor); }, leaf.shape);
     leaf.range *= factor;
@@ -78,10 +78,11 @@ absl::StatusOr<Leaf> place_leaf(const Primitive& primitive, const Affine& to_wor
   const auto near_enough = [](double x) { return std::abs(x) <= base::kMaxCoordinate; };
   const double longest = std::visit([](const auto& s) { return s.largest(); }, primitive.shape);
   const double largest = std::max(longest, primitive.range);
-  // A signed field is the distance over the scale: of it a length of 1 tells how large it may be.
+  // A signed field has no range and is the distance divided by the scale, so the scale itself (a length of 1) is
+  // checked instead.
   const bool is_signed = primitive.law == operators::Law::kSigned;
   const double least_length = is_signed ? 1 : primitive.range;
-  // Maps that each are well conditioned may multiply to one that is not, and whose least stretch is lost in rounding.
+  // The product of well-conditioned maps may be badly conditioned, and its least stretch is then lost in rounding.
   if (!inverse || !(stretch.least * (kMaxCondition * 1.001) >= stretch.most) ||
       !(least_length * stretch.least >= base::kMinLength * (1 - kStretchRounding)) ||
       !near_enough(largest * stretch.most) || !near_enough(place.offset.x) || !near_enough(place.offset.y) ||

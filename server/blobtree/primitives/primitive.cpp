@@ -9,7 +9,7 @@
 namespace isofield::blobtree {
 namespace {
 
-// The law of a primitive's field, and its range where it has one.
+// Reads the law of a primitive's field, and its range if it has one.
 template <class Message>
 void read_law(const Message& m, Primitive& primitive, FieldReader& in) {
   switch (m.law()) {
@@ -41,7 +41,7 @@ Primitive read_primitive(const v1::Node& node, FieldReader& in) {
   if (node.has_##field()) return read<shapes::Name>(node.field(), in);
   ISOFIELD_PRIMITIVES(ISOFIELD_READ)
 #undef ISOFIELD_READ
-  std::abort();  // the caller's switch has kinds of primitives alone
+  std::abort();  // not reached: the caller's switch has kinds of primitives alone
 }
 
 }  // namespace isofield::blobtree

@@ -1,4 +1,5 @@
-// The table of all kinds of primitives, and a primitive by itself.
+// This file has the table of all kinds of primitives, the table of all leaves that instructions may have, and
+// Primitive, which is a primitive by itself.
 #pragma once
 
 #include <absl/status/status.h>
@@ -24,7 +25,7 @@ class Node;
 
 namespace isofield::blobtree {
 
-// Every kind: its struct, and its field in the message Node.
+// ISOFIELD_PRIMITIVES lists every kind: its struct, and its field in the message Node.
 #define ISOFIELD_PRIMITIVES(ROW) \
   ROW(Sphere, sphere)            \
   ROW(Segment, segment)          \
@@ -35,7 +36,7 @@ namespace isofield::blobtree {
   ROW(HalfSpace, half_space)     \
   ROW(Cone, cone)
 
-// Everything that an instruction may have as its right operand and that is a leaf: its name, the .glsl in
+// ISOFIELD_LEAVES lists every right operand of an instruction that is a leaf: its name, the .glsl in
 // shaders/lib/primitives/ that holds its function NAME_field(p, record), and the vec4s of its record.
 #define ISOFIELD_LEAVES(ROW)                     \
   ROW(Sphere, sphere, sphere, 2)                 \
@@ -50,8 +51,8 @@ namespace isofield::blobtree {
 
 #define ISOFIELD_ENUMERATOR(Name, ...) k##Name,
 enum class Operand : std::uint8_t {
-  kPop,   // the accumulator; what is popped off the stack takes its place as the left operand
-  kZero,  // the constant 0: a right operand that was culled
+  kPop,   // the accumulator; the left operand is then popped off the stack
+  kZero,  // the constant 0: the right operand was culled, or there is none
   ISOFIELD_LEAVES(ISOFIELD_ENUMERATOR) kCount
 };
 #undef ISOFIELD_ENUMERATOR
@@ -70,7 +71,7 @@ inline constexpr std::array kOperands{OperandTraits{"pop", "", 0}, OperandTraits
 #undef ISOFIELD_ROW
 static_assert(kOperands.size() == static_cast<std::size_t>(Operand::kCount));
 
-// vec4s in the buffer of leaves.
+// Returns how many vec4s the operand's record takes in the buffer of leaves.
 constexpr std::uint32_t record_size(Operand operand) {
   return kOperands[static_cast<std::size_t>(operand)].record_size;
 }
@@ -89,15 +90,15 @@ ISOFIELD_PRIMITIVES(ISOFIELD_CHECK)
 inline constexpr std::array kShapes{ISOFIELD_PRIMITIVES(ISOFIELD_TRAITS)};
 #undef ISOFIELD_TRAITS
 
-// A primitive in the frame of its node.
+// A Primitive is a shape with the law of its field, in the frame of its node.
 struct Primitive {
   Shape shape;
   operators::Law law = operators::Law::kPositive;
-  double range = 0;  // of a positive field
-  Affine frame;      // from the shape's own frame to the node's
+  double range = 0;  // only for positive fields
+  Affine frame;      // maps the shape's own frame to the node's
 };
 
-// Reads the primitive that a node is. Call it for nodes of the kinds above alone.
+// Reads the primitive of a node, which must be of one of the kinds above.
 Primitive read_primitive(const v1::Node& node, FieldReader& in);
 
 inline const PrimitiveTraits& traits_of(const Shape& shape) {

@@ -10,11 +10,11 @@
 namespace isofield::blobtree::shapes {
 namespace {
 
-// A vector shorter than this times the box has no direction to rely on.
+// The direction of a vector is not reliable if it is shorter than this times the radius of the box.
 constexpr double kLeastOffset = 1e-6;
 
-// The sphere of those that span a rigidly placed round cone whose distance from p is the least: that distance is the
-// cone's. `offset` leads from its centre to p, in the world.
+// A rigidly placed round cone is the union of a family of spheres. NearestSphere is the one with the least distance
+// from p, which is the cone's distance. `offset` leads from its centre to p, in the world.
 struct NearestSphere {
   dvec3 offset;
   double radius;
@@ -30,8 +30,8 @@ NearestSphere nearest_sphere(const Segment& s, const Domain& domain, const dvec3
   return {v - axis * c, s.radius_a - c * sin_tilt};
 }
 
-// As records hold a round cone: the slope of its radius and the tangent of its tilt. An end that contains the other is
-// a sphere.
+// RoundCone holds a round cone as records do, with the slope of its radius and the tangent of its tilt. If one end
+// contains the other, it is a sphere.
 struct RoundCone {
   double centre, length, radius, slope, tan;
 };
@@ -75,7 +75,7 @@ double Segment::growth() const {
 }
 
 blobtree::Box Segment::support(const Affine& to_world, double range) const {
-  // The hull of two spheres is far tighter than the box of a tilted box.
+  // The box around two balls is far tighter than the box of a tilted box.
   const auto ball = [&](const dvec3& centre, double r) {
     Affine at = to_world;
     at.offset = centre;
@@ -96,7 +96,7 @@ void Segment::write(const Domain& domain, Slope slope, Operand operand, Float4* 
   dvec3 a = domain.anchor;
   if (operand == Operand::kAffineSegment) {
     write_rows(domain, slope, c.length, c.radius, c.slope, out);
-    // The centre of an end that contains the other lies at its place along the axis.
+    // If one end contains the other, the record has the centre of that end, which lies on the axis.
     if (c.centre != 0) a = a + domain.to_local.inverse()->vector({0, 0, c.centre});
   } else {
     a = a + axis * c.centre;
@@ -111,7 +111,8 @@ std::optional<Interval> Segment::box_bounds(const Domain& domain, const CentredB
   const NearestSphere sphere = nearest_sphere(*this, domain, box.centre);
   const dvec3 v = absolute(sphere.offset);
   const double m = glm::length(v), d = m - sphere.radius;
-  // The distance is convex and lies above its tangent plane; no sphere of the cone is nearer than it is.
+  // The lower bound holds because the distance is convex and lies above its tangent plane. The upper bound holds
+  // because no sphere of the cone is nearer than the cone.
   const double fall = m > kLeastOffset * box.radius ? dot(v, box.half) / m : box.radius;
   return Interval{d - fall, glm::length(v + box.half) - sphere.radius};
 }

@@ -1,4 +1,5 @@
-// A round cone: the convex hull of two spheres, around the origin and around (0, 0, length).
+// Segment is a primitive: a round cone, which is the convex hull of two spheres, one around the origin and one around
+// (0, 0, length).
 #pragma once
 
 #include <algorithm>
@@ -16,9 +17,9 @@ struct Segment {
   static constexpr PrimitiveTraits kTraits{"segment", false};
   static Segment read(const v1::Segment& message, FieldReader& in, Affine& frame);
 
-  double length = 0, radius_a = 0, radius_b = 0;  // radius_a at the origin
+  double length = 0, radius_a = 0, radius_b = 0;  // radius_a is at the origin
 
-  // For each point the cone touches one sphere of the family that spans it: that with centre (0, 0, c).
+  // The cone is the union of a family of spheres. The sphere that is nearest to the point has the centre (0, 0, c).
   template <class V>
   typename V::value_type distance(const V& q) const {
     using std::max, std::min, std::sqrt;
@@ -30,7 +31,7 @@ struct Segment {
     const T c = min(max(q.z - rho * tan_tilt, T(0.0)), T(length));
     return norm(q.x, q.y, q.z - c) - (radius_a - c * sin_tilt);
   }
-  // One end's sphere contains the other.
+  // Returns whether the sphere of one end contains that of the other.
   bool is_sphere() const { return std::abs(radius_a - radius_b) >= length; }
   double sphere_centre() const { return radius_a >= radius_b ? 0 : length; }
   double largest_radius() const { return std::max(radius_a, radius_b); }

@@ -1,4 +1,4 @@
-// A sphere around the origin.
+// Sphere is a primitive: a sphere around the origin.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,8 @@ struct Sphere {
   std::optional<Interval> box_bounds(const Domain& domain, const CentredBox& box) const;
 };
 
-// Most scenes are of spheres, and culling asks this of each brick: the call costs as much as what it does.
+// This function is inline because most scenes consist of spheres and culling calls it for each brick: the call would
+// cost as much as the work.
 inline std::optional<Interval> Sphere::box_bounds(const Domain& domain, const CentredBox& box) const {
   if (!domain.is_rigid) return std::nullopt;
   const dvec3 v = absolute(box.centre - domain.anchor), n = v - box.half;

@@ -1,4 +1,4 @@
-// A torus around the z axis, centred.
+// Torus is a primitive: a torus around the z axis. The origin of its own frame is its centre.
 #pragma once
 
 #include <cmath>

@@ -90,11 +90,11 @@ std::vector<const std::string*> child_references(const v1::Node& message) {
   const auto* kind = message.GetReflection()->GetOneofFieldDescriptor(message, kKind);
   if (!kind) return {};
   const auto& body = message.GetReflection()->GetMessage(message, kind);
-  // Operators have them as their first field.
+  // Operators have their children as their first field.
   const auto* children = body.GetDescriptor()->FindFieldByNumber(1);
   if (children->cpp_type() != google::protobuf::FieldDescriptor::CPPTYPE_STRING || !children->is_repeated()) return {};
   const auto* reflection = body.GetReflection();
-  std::string scratch;  // unused: the message holds strings as they are
+  std::string scratch;  // not used: the message holds its strings whole
   for (int i = 0; i < reflection->FieldSize(body, children); ++i) {
     references.push_back(&reflection->GetRepeatedStringReference(body, children, i, &scratch));
   }
@@ -103,7 +103,7 @@ std::vector<const std::string*> child_references(const v1::Node& message) {
 
 absl::Status read_node(const v1::Node& message, const OperatorTable& custom, Node& node) {
   FieldReader in(node.path);
-  // No kind is left out: the compiler refuses a field of the message that has no row in its family's table.
+  // The switch leaves no kind out: the compiler refuses a field of the message that has no row in its family's table.
   switch (message.kind_case()) {
 #define ISOFIELD_CASE(Name, field)                \
   case v1::Node::k##Name:                         \

@@ -1,4 +1,5 @@
-// One node of a Scene message, its numbers checked and its defaults filled in. References are left to scene_reader.
+// These functions read one node of a Scene message: they check its numbers and fill in its defaults. scene_reader
+// resolves the references between nodes.
 #pragma once
 
 #include <absl/status/status.h>
@@ -9,14 +10,15 @@
 
 namespace isofield::blobtree {
 
-// What errors call a node: nodes[3] 'arm/upper'.
+// Returns what errors call a node, for example nodes[3] 'arm/upper'.
 std::string node_path(std::size_t index, const v1::Node& message);
 
-// Fills everything of `node` but `children`; node.path is set and used in errors. The law of operators that take either
-// is left to scene_reader, too.
+// Fills all members of `node` but `path`, which the caller has set, and `children`. scene_reader also decides the law
+// of operators that take fields of either law. INVALID_ARGUMENT names the node, the field, the value and what was
+// expected.
 absl::Status read_node(const v1::Node& message, const OperatorTable& custom, Node& node);
 
-// The children that a node refers to, in order.
+// Returns the references to the node's children, in order. They point into `message`.
 std::vector<const std::string*> child_references(const v1::Node& message);
 
 }  // namespace isofield::blobtree

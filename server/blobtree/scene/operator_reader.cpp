@@ -17,7 +17,7 @@ std::string kind_names() {
   return absl::StrJoin(names, ", ");
 }
 
-// Operands come with the nodes that use the operator.
+// Refuses an operator with children, because operands come with the nodes that use the operator.
 void refuse_children(const v1::Operator& message, base::FieldReader& in) {
   const FieldDescriptor* kind =
       message.GetReflection()->GetOneofFieldDescriptor(message, v1::Operator::descriptor()->FindOneofByName("kind"));

@@ -1,4 +1,5 @@
-// Composition operators of messages, checked: from a node of a scene, or from an Operator message of the catalog.
+// These functions read composition operators and check them, from a node of a scene or from an Operator message of the
+// catalog.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -13,14 +14,15 @@
 
 namespace isofield::blobtree {
 
-// INVALID_ARGUMENT: names the field, the value and what was expected.
+// Reads an operator of the catalog. INVALID_ARGUMENT names the field, the value and what was expected.
 absl::StatusOr<std::shared_ptr<const operators::Operator>> read_operator(const v1::Operator& message);
-// An operator of the message's kind, which must be set, with none of its parameters read: for what holds of the kind.
+// Returns an operator of the message's kind, which must be set, without reading its parameters. It serves questions
+// about the kind alone.
 operators::Operator unread_operator(const v1::Operator& message);
-// An opening function by itself.
+// Reads an opening function by itself, with the same errors.
 absl::StatusOr<operators::Opening> read_opening(const v1::Opening& message);
 
-// Reads a kind from its message, with its form where the message states one.
+// Reads an operator of one kind from its message, together with its form if the message has one. Refusals go to `in`.
 template <class Kind, class Message>
 std::shared_ptr<const operators::Operator> read_kind(const Message& message, base::FieldReader& in) {
   operators::Form form = operators::Form::kUnion;

@@ -1,4 +1,4 @@
-// Custom operators by name, as a scene with `custom` nodes was put with them.
+// OperatorTable holds custom operators by name. A scene whose `custom` nodes name them is read with them.
 #pragma once
 
 #include <absl/container/flat_hash_map.h>

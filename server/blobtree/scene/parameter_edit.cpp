@@ -23,13 +23,13 @@ absl::Status refuse(const ParameterEdit& edit, const std::string& why) {
                                                  base::printable(edit.field, base::kQuotedCharacters), ": ", why));
 }
 
-// The field of the node's kind, that is the one that is set in the oneof; nullptr where none is.
+// Returns the field of the node's kind, which is the one that is set in the oneof, or nullptr if none is.
 const FieldDescriptor* kind_of(const v1::Node& node) {
   return node.GetReflection()->GetOneofFieldDescriptor(node, v1::Node::descriptor()->FindOneofByName("kind"));
 }
 
-// The field of this name, which may be the one of scene.proto ("radius_a") or of JSON ("radiusA"); nullptr where there
-// is none.
+// Returns the field of this name, or nullptr if there is none. The name may be that of scene.proto ("radius_a") or that
+// of JSON ("radiusA").
 const FieldDescriptor* field_of(const Descriptor& type, const std::string& name) {
   const FieldDescriptor* field = type.FindFieldByName(name);
   for (int i = 0; field == nullptr && i < type.field_count(); ++i) {
@@ -38,7 +38,8 @@ const FieldDescriptor* field_of(const Descriptor& type, const std::string& name)
   return field;
 }
 
-// The names of the numeric fields of a kind of node. Fields of a message within it are named like "opening.alpha0".
+// Returns the names of the numeric fields of a kind of node. Fields of a message within it are named like
+// "opening.alpha0".
 std::vector<std::string> numeric_fields(const Descriptor& type) {
   std::vector<std::string> names;
   for (int i = 0; i < type.field_count(); ++i) {
@@ -60,7 +61,7 @@ absl::Status refuse_field(const ParameterEdit& edit, const FieldDescriptor& kind
                              base::did_you_mean(edit.field, names), "; expected one of ", absl::StrJoin(names, ", ")));
 }
 
-// The element that ".1" or ".y" names; -1: none.
+// Returns the index of the element that "1" or "y" names, or a negative number if there is none.
 int element_of(const std::string& name, int size) {
   int index = -1;
   if (size == 3 && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z')

@@ -1,4 +1,4 @@
-// Edits of a scene's numbers, addressed by node and field.
+// apply_edits() changes numbers of a Scene message, which are addressed by node and field.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -11,14 +11,16 @@
 
 namespace isofield::blobtree {
 
+// A ParameterEdit gives new values to a field of a node, or to an element of a field.
 struct ParameterEdit {
-  std::string node;   // a name, or "#i"
-  std::string field;  // "radius", "radius_a" or "radiusA", "center", "center.y", "center.1", "opening.alpha0"
+  std::string node;   // a node's name, or "#i" for nodes[i]
+  std::string field;  // like "radius", "radius_a" or "radiusA", "center", "center.y", "center.1", "opening.alpha0"
   std::vector<double> values;
 };
 
-// Applies all edits, or none. INVALID_ARGUMENT: no such node or numeric field, or another count of numbers than the
-// field holds. Whether the values are admitted is for read_scene to say. Returns the nodes that are changed.
+// Applies all edits, or none, and returns the indices of the nodes that it changes. INVALID_ARGUMENT: there is no such
+// node or numeric field, or the edit has another count of numbers than a single field or an element takes; a whole list
+// takes any count. read_scene() tells whether the values are admitted.
 absl::StatusOr<std::vector<std::uint32_t>> apply_edits(const std::vector<ParameterEdit>& edits, v1::Scene& scene);
 
 }  // namespace isofield::blobtree

@@ -1,4 +1,5 @@
-// How many different tables a scene's operators take on the device: each opening, silhouette and curve is one.
+// ProfileCount counts the different tables that a scene's operators take on the device. Each different opening,
+// silhouette and curve is one table.
 #pragma once
 
 #include <set>

@@ -1,5 +1,5 @@
-// A scene that has passed validation: the graph of a Scene message with references resolved, defaults filled in and
-// angles in radians. Children come before parents are evaluated, not before them in `nodes`.
+// A Scene is a scene that has passed validation: the graph of a Scene message with references resolved, defaults filled
+// in and angles in radians. Children need not stand before their parents in `nodes`; `order` has them in that order.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@ namespace isofield::blobtree {
 
 enum class NodeKind { kPrimitive, kOperator, kTransform, kSoften, kHarden };
 
+// A Node is a node of the scene. Which of its last members are used depends on its kind.
 struct Node {
   NodeKind kind = NodeKind::kPrimitive;
-  operators::Law law = operators::Law::kPositive;  // of what it yields
-  std::string path;                                // for errors: nodes[3] 'arm/upper'
-  std::vector<std::uint32_t> children;             // places in Scene::nodes
+  operators::Law law = operators::Law::kPositive;  // law of the field that the node yields
+  std::string path;                                // names the node in errors: nodes[3] 'arm/upper'
+  std::vector<std::uint32_t> children;             // indices in Scene::nodes
 
   Primitive primitive;  // kPrimitive
   double range = 0;     // kSoften
@@ -31,18 +32,19 @@ struct Node {
 struct Scene {
   std::vector<Node> nodes;
   std::uint32_t root = 0;
-  // Nodes that the root reaches, each after its children.
+  // This has the indices of the nodes that the root reaches, each after its children.
   std::vector<std::uint32_t> order;
 };
 
-// What a scene may be at most; beyond is RESOURCE_EXHAUSTED's business at the edge, INVALID_ARGUMENT here.
+// These are the limits of a scene; read_scene() refuses a larger one with INVALID_ARGUMENT. Requests have limits of
+// their own, at the edge, with RESOURCE_EXHAUSTED.
 struct SceneLimits {
   std::uint64_t max_nodes = 1'000'000;
-  std::uint64_t max_primitives = 1'000'000;  // after instancing
-  std::uint64_t max_profiles = 2'000;        // different openings, silhouettes and curves: a table of 8 to 64 KiB each
+  std::uint64_t max_primitives = 1'000'000;  // counted at every use of a shared node
+  std::uint64_t max_profiles = 2'000;        // different openings, silhouettes and curves, each a table of 8 to 64 KiB
 };
 
-// Different volumes that one scene's operators may use: each takes a binding of the kernels.
+// One scene's operators may use this many different volumes, because each takes a binding of the kernels.
 inline constexpr std::size_t kMaxVolumes = 4;
 
 using base::kMaxCoordinate;

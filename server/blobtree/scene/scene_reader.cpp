@@ -18,10 +18,10 @@
 namespace isofield::blobtree {
 namespace {
 
-// The most bytes of a node's name and of the unit, which answers repeat.
+// A node's name and the unit have at most this many bytes, because answers repeat them.
 constexpr std::size_t kMaxNameCharacters = 256;
 
-// Names of nodes, and what "name" or "#i" refers to.
+// References holds the names of nodes and resolves references, which are "name" or "#i".
 class References {
  public:
   absl::Status add(const v1::Node& node, std::uint32_t index, const std::string& path) {
@@ -40,7 +40,7 @@ class References {
     return absl::OkStatus();
   }
 
-  // The error for a reference to no node. `what` says where it stands: at a child or at the root.
+  // Returns the error for a reference to no node. `what` says where it stands: at a child or at the root.
   absl::Status refuse(absl::string_view what, const std::string& reference, std::size_t node_count) const {
     std::vector<std::string> names;
     for (const auto& [name, index] : names_) names.push_back(name);
@@ -50,12 +50,12 @@ class References {
                                                    base::did_you_mean(reference, names)));
   }
 
-  // Nothing when the reference is to no node.
+  // Returns nothing if there is no such node.
   std::optional<std::uint32_t> find(absl::string_view reference, std::size_t node_count) const {
     if (!reference.empty() && reference[0] == '#') {
       const absl::string_view digits = reference.substr(1);
       std::uint32_t index = 0;
-      // SimpleAtoi admits spaces and signs.
+      // SimpleAtoi() admits spaces and signs, which a reference may not have.
       if (!std::all_of(digits.begin(), digits.end(), absl::ascii_isdigit) || !absl::SimpleAtoi(digits, &index) ||
           index >= node_count) {
         return std::nullopt;
@@ -71,9 +71,11 @@ class References {
   absl::flat_hash_map<std::string, std::uint32_t> names_;
 };
 
+// A Mark tells whether a node has not been visited, is on the way from `start`, or is done.
 enum class Mark : char { kNew, kOpen, kDone };
 
-// Appends `start` and all below it to `order`, children first; refuses cycles.
+// Appends `start` and all nodes below it to `order`, children first, except those that it already has. It refuses
+// cycles.
 absl::Status sort_from(const Scene& scene, std::uint32_t start, std::vector<Mark>& marks,
                        std::vector<std::uint32_t>& order) {
   struct Visit {
@@ -122,7 +124,8 @@ absl::Status check_operand_count(const Node& node) {
       absl::StrCat(node.path, ".children = [", count, count == 1 ? " child" : " children", "]: expected ", expected));
 }
 
-// Children before parents: each operator takes as many children as it can, all of one law.
+// Checks, children before parents, that each operator has as many children as it can take, all of one law. It also sets
+// the law of nodes that take either law.
 absl::Status check_operands(Scene& scene, const std::vector<std::uint32_t>& order) {
   const auto name = [](operators::Law law) { return law == operators::Law::kSigned ? "SIGNED" : "POSITIVE"; };
   const auto other = [](operators::Law law) {
@@ -160,8 +163,8 @@ absl::Status check_operands(Scene& scene, const std::vector<std::uint32_t>& orde
   return absl::OkStatus();
 }
 
-// Cycles and misfits that the root does not reach are refused too: the file is wrong, though this model would not show
-// it.
+// Cycles and mismatches that the root does not reach are refused, too: they are errors of the file, although this scene
+// would not show them.
 absl::Status sort_nodes(Scene& scene) {
   std::vector<Mark> marks(scene.nodes.size(), Mark::kNew);
   if (absl::Status s = sort_from(scene, scene.root, marks, scene.order); !s.ok()) return s;
@@ -172,7 +175,7 @@ absl::Status sort_nodes(Scene& scene) {
   return check_operands(scene, all);
 }
 
-// What the root stands for when every use of a shared node counts.
+// Checks how many primitives and nodes the root stands for if every use of a shared node counts.
 absl::Status check_instances(const Scene& scene, const SceneLimits& limits) {
   struct Count {
     std::uint64_t primitives, nodes;
@@ -196,7 +199,8 @@ absl::Status check_instances(const Scene& scene, const SceneLimits& limits) {
   return absl::OkStatus();
 }
 
-// Each opening, silhouette and curve is a table on the device, each volume a buffer of its own.
+// Checks the number of tables and volumes: each opening, silhouette and curve takes a table on the device, and each
+// volume takes a binding of its own.
 absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
   ProfileCount profiles;
   std::set<operators::VolumeKey> volumes;

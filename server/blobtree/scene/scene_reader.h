@@ -1,4 +1,4 @@
-// From the contract's Scene message to a validated Scene.
+// read_scene() makes a validated Scene of the contract's Scene message.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -9,8 +9,9 @@
 
 namespace isofield::blobtree {
 
-// INVALID_ARGUMENT with the node's path, the field, the value and what would be accepted (scene.proto). Uses no
-// recursion: depth is limited by memory alone.
+// Reads and validates a scene. `custom` holds the operators that its `custom` nodes name. INVALID_ARGUMENT states the
+// node's path, the field, the value and what would be accepted (scene.proto). The function uses no recursion, so that
+// memory alone limits the depth of a scene.
 absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& limits = {},
                                  const OperatorTable& custom = {});
 

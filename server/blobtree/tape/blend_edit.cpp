@@ -30,7 +30,7 @@ absl::StatusOr<std::optional<Tape>> edit_blends(const Tape& tape, const v1::Scen
     o.what = std::move(fresh.what);
     o.growth = fresh.growth;
   }
-  // At the limit the whole scene is to be judged.
+  // If there are too many profiles, read_scene() must judge the whole scene.
   ProfileCount profiles;
   for (const Operation& o : result.operations) {
     if (o.what) profiles.add(*o.what);

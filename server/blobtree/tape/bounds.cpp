@@ -36,7 +36,7 @@ Bounds spread(const Bounds& b, const Spread& s) {
   return {b.within(s.reach), b.growth * s.times / s.over, std::min(limit, s.limit)};
 }
 
-// Bounds of a union, as far as this operand decides it.
+// Returns the bounds of a union, as far as this operand decides them.
 Bounds reached(const operators::Operator& op, std::size_t operand, const Bounds& b) {
   return op.visit([&]<class K>(const K& kind) {
     if constexpr (operators::IsSigned<K>) {
@@ -47,7 +47,8 @@ Bounds reached(const operators::Operator& op, std::size_t operand, const Bounds&
   });
 }
 
-// Bounds of an intersection or a difference, from one operand that the result does not undercut.
+// Returns the bounds of an intersection or a difference from one operand, below which the result falls no further than
+// kept() says.
 Bounds kept(const operators::Operator& op, std::size_t operand, const Bounds& b) {
   return op.visit([&]<class K>(const K& kind) {
     if constexpr (operators::IsSigned<K>) {
@@ -62,7 +63,7 @@ void join_signed(Bounds& so_far, const operators::Operator& op, std::size_t oper
   const bool is_difference = op.form == Form::kDifference;
   const bool is_intersection = op.kind() == Kind::kMax || op.form == Form::kIntersection;
   const bool is_joint = op.is_joint();
-  // A fold applies the operator to what it has so far and to the next.
+  // A folded operator takes what it has so far and the next operand.
   if (operand == 0) {
     so_far = next;
     if (!is_joint) return;
@@ -70,7 +71,7 @@ void join_signed(Bounds& so_far, const operators::Operator& op, std::size_t oper
   const std::size_t place = is_joint ? operand : 1;
   if (is_difference || is_intersection) {
     if (!is_joint || operand == 0) so_far = kept(op, 0, so_far);
-    // Each operand bounds an intersection; the first one that has an end is taken.
+    // Each operand bounds an intersection. The first one that is bounded is taken.
     if (is_intersection && operand > 0 && !so_far.box.is_bounded()) {
       const Bounds other = kept(op, place, next);
       if (other.box.is_bounded()) so_far = other;
@@ -92,7 +93,7 @@ void join_signed(Bounds& so_far, const operators::Operator& op, std::size_t oper
 
 Box Bounds::within(double r) const {
   if (r >= limit) return Box::everywhere();
-  // An empty solid may still be approached: nothing is known of where.
+  // A field without a solid may still be at most r somewhere, and nothing is known of the place.
   if (box.empty()) return r > 0 ? Box::everywhere() : box;
   const dvec3 room{r * growth, r * growth, r * growth};
   return {box.min - room, box.max + room};

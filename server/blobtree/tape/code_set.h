@@ -1,4 +1,5 @@
-// Sets of opcodes or operands: what the instructions of a tape may hold. A kernel is specialised to them.
+// CodeSet is a set of opcodes or of operands that the instructions of a tape may hold. A kernel is specialised to such
+// sets.
 #pragma once
 
 #include <array>
@@ -9,12 +10,12 @@
 
 namespace isofield::blobtree {
 
-// A set of members of an enumeration that has at most 256.
+// The enumeration `Code` has at most 256 members.
 template <class Code>
 class CodeSet {
  public:
   static constexpr std::size_t kWords = 8;
-  // As many words as the enumeration needs; kernels know of no others.
+  // The enumeration needs this many words; kernels know of no others.
   static constexpr std::size_t kUsedWords = (static_cast<std::size_t>(Code::kCount) + 31) / 32;
   static_assert(kUsedWords <= kWords);
 
@@ -29,7 +30,7 @@ class CodeSet {
     for (std::size_t i = 0; i < kWords; ++i) words_[i] |= other.words_[i];
   }
   bool has(Code code) const { return (words_[static_cast<std::size_t>(code) / 32] & bit(code)) != 0; }
-  // Whether every member of the other set is in this one.
+  // Returns whether every member of the other set is in this one.
   bool contains(const CodeSet& other) const {
     for (std::size_t i = 0; i < kWords; ++i) {
       if ((other.words_[i] & ~words_[i]) != 0) return false;

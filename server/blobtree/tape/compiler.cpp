@@ -19,25 +19,27 @@ bool is_joint(const Node& node) {
 bool is_conversion(const Node& node) {
   return node.kind == NodeKind::kSoften || node.kind == NodeKind::kHarden;
 }
-// A node that is its only child: transforms are folded into the leaves.
+// Returns whether a node has the value of its only child: transforms are folded into the leaves, and an operator leaves
+// a single child as it is.
 bool is_transparent(const Node& node) {
   return node.children.size() == 1 && !is_conversion(node);
 }
 
-// Transforms this close to a similarity change no angle by more than float32 does, for example a rotation whose matrix
-// was written with seven digits.
+// A transform this close to a similarity changes angles by no more than float32 does. An example is a rotation whose
+// matrix was written with seven digits.
 constexpr double kSimilar = 5e-7;
 
 // The weights of nested blends may multiply fields and their gradients by this much in all.
 constexpr double kMostGain = 1e9;
 
-// The most that an operator multiplies one of its operands by, 1 over the operand's weight.
+// Returns the most that an operator multiplies one of its operands by, which is 1 over the operand's weight.
 double gain_of(const operators::Operator& op, std::size_t operands) {
   double gain = 1;
   for (std::size_t i = 0; i < operands; ++i) gain = std::max(gain, 1 / op.weight(i));
   return gain;
 }
 
+// Compiler makes one tape. It walks the scene with a stack of its own.
 class Compiler {
  public:
   explicit Compiler(const Scene& scene) : scene_(scene) {}
@@ -56,27 +58,28 @@ class Compiler {
   }
 
  private:
+  // A Join says which operator takes a value, and how.
   struct Join {
     Opcode op = Opcode::kPush;
-    std::uint32_t operation = 0;  // in Tape::operations
+    std::uint32_t operation = 0;  // index in Tape::operations
     Mode mode;
   };
-  // One node on the way of being emitted.
+  // A Frame is a node that is being emitted.
   struct Frame {
     std::uint32_t node;
-    std::uint32_t to_world;  // in maps_
+    std::uint32_t to_world;  // index in maps_
     std::uint32_t next_child = 0;
-    bool second_first = false;    // the second child is deeper: it goes first
-    std::uint32_t operation = 0;  // operators of two or more children
-    // How the node's value joins what is on the stack when it is complete.
+    bool second_first = false;    // the second child is deeper and goes first
+    std::uint32_t operation = 0;  // for conversions and operators of two or more children
+    // Says how the node's value joins what is on the stack when it is complete.
     Join join;
     double length = 0;  // largest range below, in the unit of the node's own frame
-    double gain = 1;    // of the weights below
+    double gain = 1;    // gain of the weights below
     Bounds bounds;
-    Bounds waiting;  // second_first: those of the second operand, until the first is there
+    Bounds waiting;  // if second_first: bounds of the second operand, until the first is there
   };
 
-  // Values that wait while a node is evaluated. A leaf-like operand is fused and never waits.
+  // Counts the values that wait while a node is evaluated. A leaf-like operand is fused and never waits.
   void measure_depths() {
     depth_.assign(scene_.nodes.size(), 0);
     leaf_like_.assign(scene_.nodes.size(), 0);
@@ -93,7 +96,7 @@ class Compiler {
     }
   }
 
-  // Whether a transform above some operator that follows an angle changes angles.
+  // Returns whether a transform that changes angles stands above some operator that follows an angle.
   bool changes_angles() const {
     std::vector<char> follows(scene_.nodes.size(), 0);
     for (const std::uint32_t index : scene_.order) {
@@ -145,7 +148,7 @@ class Compiler {
     return blobtree::add_operation(tape_, std::move(o));
   }
 
-  // How the operand that is emitted as the i-th joins those before.
+  // Returns how the operand that is emitted as the i-th joins those before it.
   Join join_of(const Node& node, const Frame& frame, std::uint32_t i) const {
     Join join{tape_.operations[frame.operation].op, frame.operation, {}};
     const bool exchanged = i == 1 && frame.second_first;
@@ -211,7 +214,7 @@ class Compiler {
     if (join.op != Opcode::kPush) add_codes(tape_, tape_.operations[join.operation], join.mode);
   }
 
-  // Blends divide fields by weights: nested often enough, beyond what float32 holds.
+  // Refuses nested blends that divide fields by so small weights that float32 would not hold the results.
   static absl::Status check_gain(const Node& node, Frame& frame) {
     if (node.kind == NodeKind::kSoften) frame.gain = 1;
     if (node.op && node.children.size() >= 2) frame.gain *= gain_of(*node.op, node.children.size());
@@ -221,7 +224,7 @@ class Compiler {
                      " in all: expected weights whose product along a way down is at least ", 1 / kMostGain));
   }
 
-  // The node on top is complete: join its value, and tell its parent what it needs to know.
+  // Completes the node on top of the stack: joins its value, and tells its parent what it needs to know.
   void close() {
     Frame done = stack_.back();
     const Node& node = scene_.nodes[done.node];
@@ -240,7 +243,7 @@ class Compiler {
         emit(Operand::kZero, own, (1u << node.children.size()) - 1);
       }
       Operation& operation = tape_.operations[done.operation];
-      // Without frames all maps above are similarities: they scale alike in all directions.
+      // Without frames all maps above are similarities, which scale equally in all directions.
       if (operation.what && operation.what->follows_angle()) {
         operation.length = done.length * (operation.frame ? 1 : maps_[done.to_world].stretch().most);
       }

@@ -1,4 +1,4 @@
-// How far a scene's field reaches.
+// These functions tell how far a scene's field reaches.
 #pragma once
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 
 namespace isofield::blobtree {
 
-// The longest edge of a box that is not empty.
+// Returns the longest edge of a box, which must not be empty.
 inline double longest_edge(const Box& box) {
   return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
 }
 
-// True where the scene's operators bound its field by themselves. A scene without any field is bounded.
+// Returns whether the scene bounds its field by itself. A scene without any field is bounded.
 inline bool is_bounded(const Tape& tape) {
   return tape.support.empty() || tape.support.is_bounded();
 }

@@ -8,7 +8,7 @@ namespace {
 using operators::Form;
 using operators::Law;
 
-// The place among the tape's volumes of the one that the operator is looked up in.
+// Returns the slot, among the tape's volumes, of the volume that the operator is looked up in. A new volume is added.
 std::uint32_t slot_of(Tape& tape, const std::shared_ptr<const operators::Operator>& op) {
   std::uint32_t slot = 0;
   while (slot < tape.volumes.size() && tape.volumes[slot]->volume_key() != op->volume_key()) ++slot;
@@ -68,12 +68,12 @@ void add_codes(Tape& tape, const Operation& o, const Mode& mode) {
   if (o.what && o.what->opening() && !o.what->opening()->samples.empty()) codes.flags |= Codes::kSampledOpenings;
   const bool is_positive_difference = mode.form == Form::kDifference && !mode.is_signed;
   if (o.op == Opcode::kSubtract || is_positive_difference) {
-    // Where the subtrahend is gone, the pruner clamps fields above 1 by subtracting 0.
+    // If the subtrahend is gone, the pruner clamps fields above 1 by subtracting 0.
     codes.operands.add(Operand::kZero);
     codes.opcodes.add(Opcode::kSubtract);
   }
-  // What remains of a blend with weights beyond its range is one operand over its weight; what remains of a positive
-  // field that is made signed, 0.5 less 0.
+  // Pruning may leave one operand of a blend with weights, which is then divided by its weight. It may leave nothing of
+  // a positive field that is made signed, which is then 0.5 less 0.
   const bool has_weights = o.what && o.what->visit([](const auto& kind) {
     return requires {
       kind.weight(0);

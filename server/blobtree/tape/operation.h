@@ -1,4 +1,4 @@
-// From an operator to what a tape holds of it.
+// These functions make Operations, which are what a tape holds of operators.
 #pragma once
 
 #include <memory>
@@ -7,17 +7,18 @@
 
 namespace isofield::blobtree {
 
-// Of an operator on `operands` fields of `law`; not yet in a tape.
+// Makes an operation of an operator on `operands` fields of `law`, which is not in a tape yet. `silhouettes` keeps the
+// bounds of silhouettes for further calls.
 Operation operation_of(std::shared_ptr<const operators::Operator> op, operators::Law law, std::uint32_t operands,
                        operators::SilhouetteBounds& silhouettes);
 
-// Gives it a record; returns its place in Tape::operations.
+// Adds an operation to the tape with a record of its own, and returns its index in Tape::operations.
 std::uint32_t add_operation(Tape& tape, Operation operation);
 
-// Adds what an instruction of this operation, or what the pruner leaves of it, may hold.
+// Adds the opcodes, operands and flags that an instruction of this operation may hold, before and after pruning.
 void add_codes(Tape& tape, const Operation& operation, const Mode& mode);
 
-// A tape of one instruction that applies an operator to operands which the kernel supplies.
+// Returns a tape of one instruction, which applies an operator to operands that the kernel supplies.
 Tape operator_tape(std::shared_ptr<const operators::Operator> op, operators::Law law, std::uint32_t operands);
 
 }  // namespace isofield::blobtree

@@ -25,7 +25,7 @@ std::uint32_t WindowPacker::Records::take(std::uint32_t record, std::uint32_t si
   return place[record];
 }
 
-// Whether the window being filled has room, counted as if no two instructions shared a record.
+// Returns whether the window being filled has room. It counts as if no two instructions shared a record.
 bool WindowPacker::fits(std::uint32_t begin, std::uint32_t count) {
   if (packed_.size() + count > kWindowSize) return false;
   std::size_t leaves = leaves_.copied.size(), operations = operations_.copied.size();

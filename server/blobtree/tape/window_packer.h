@@ -1,4 +1,5 @@
-// Cuts pruned tapes into windows: pieces that fit uniform buffers, each with the records that its instructions name.
+// WindowPacker cuts pruned tapes into windows, which are pieces that fit uniform buffers, each with the records that
+// its instructions name.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +10,13 @@
 
 namespace isofield::blobtree {
 
-// vec4s that a uniform buffer holds, and from a multiple of which on it may be bound.
+// A uniform buffer holds kWindowSize vec4s, and may be bound from multiples of kWindowAlignment vec4s on.
 inline constexpr std::uint32_t kWindowSize = 4096;
 inline constexpr std::uint32_t kWindowAlignment = 16;
 
-// Where the parts of a window begin, in vec4s from the start of what WindowPacker::finish() returns. Records that fit
-// whole are not copied: `leaves` and `operations` are kWhole then, and places in them are those of the whole.
+// Window says where the parts of a window begin, in vec4s from the start of what WindowPacker::finish() returns.
+// Records that fit whole are not copied: `leaves` or `operations` is kWhole then, and instructions hold places in the
+// whole buffer.
 struct Window {
   static constexpr std::uint32_t kWhole = ~0u;
   std::uint32_t code, leaves = kWhole, operations = kWhole;
@@ -22,16 +24,16 @@ struct Window {
 
 class WindowPacker {
  public:
-  // What is of a tape is kept by reference; `code` holds the tapes pruned from it.
+  // Keeps references to the three arguments. `code` holds tapes that are pruned from `tape`.
   WindowPacker(const Tape& tape, const ParameterBuffers& parameters, const std::vector<Instruction>& code);
 
   static constexpr std::uint32_t kNoWindow = ~0u;
-  // Puts the `count` instructions from `begin` on into the last window, or into a new one where they do not fit, and
-  // lets `begin` say where they are in it. The window's number: the last given or one more; kNoWindow, and nothing
-  // changed, where a window would not hold them.
+  // Puts the `count` instructions from `begin` on into the last window, or into a new one if they do not fit, and sets
+  // `begin` to their place in it. Returns the number of the window, which is the last one given or one more. Returns
+  // kNoWindow, and leaves `begin` as it is, if no window would hold them.
   std::uint32_t add(std::uint32_t& begin, std::uint32_t count);
 
-  // After the last add(): what all windows hold. It keeps none of it.
+  // Returns what all windows hold, and keeps none of it. Call it after the last add().
   std::vector<Float4> finish() {
     close();
     return std::move(data_);
@@ -39,11 +41,11 @@ class WindowPacker {
   const std::vector<Window>& windows() const { return windows_; }
 
  private:
-  // Records of leaves, or of operations.
+  // Records holds the records of leaves, or of operations, and which of them are copied.
   struct Records {
     const std::vector<Float4>* from;
     bool is_whole;
-    std::vector<std::uint32_t> window, place;  // by place in `from`: the window that holds it, and where
+    std::vector<std::uint32_t> window, place;  // for each place in `from`: the window that holds it, and where
     std::vector<Float4> copied;
 
     bool has(std::uint32_t record, std::uint32_t w) const { return is_whole || window[record] == w; }
@@ -57,9 +59,9 @@ class WindowPacker {
   const Tape& tape_;
   const std::vector<Instruction>& code_;
   Records leaves_, operations_;
-  std::uint32_t window_ = 0;  // the one being filled
+  std::uint32_t window_ = 0;  // number of the window being filled
   std::vector<Instruction> packed_;
-  std::uint32_t last_begin_ = ~0u, last_count_ = 0, last_place_ = 0;  // neighbours often share a tape
+  std::uint32_t last_begin_ = ~0u, last_count_ = 0, last_place_ = 0;  // neighbouring bricks often share a tape
   std::vector<Window> windows_;
   std::vector<Float4> data_;
 };

@@ -1,5 +1,5 @@
-// The numbers at which kernels find their buffers, in one table: C++ names them binding::mesh::kCells, and
-// shaders/generators/layouts.cpp writes them for the shaders as BINDING_MESH_CELLS.
+// The binding numbers at which kernels find their buffers, in one table for the host and the shaders. C++ names them
+// like binding::mesh::kCells, and shaders/generators/layouts.cpp writes them for the shaders like BINDING_MESH_CELLS.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 // BINDING(family, name, number). A family is an entry point of shaders/, or a header of shaders/lib/ that several of
 // them share. An entry point may use the names of its headers' families, and its own may not repeat their numbers.
 #define ISOFIELD_BINDINGS(BINDING)      \
-  /* lib/parameters.glsl and lib/volume.glsl: a resident scene. Uniform ones from gpu::kFirstUniformBinding on. */ \
+  /* A resident scene (lib/parameters.glsl, lib/volume.glsl). Uniform buffers begin at gpu::kFirstUniformBinding. */ \
   BINDING(scene, Leaves, 0)             \
   BINDING(scene, Operations, 1)         \
   BINDING(scene, Tables, 2)             \
@@ -18,7 +18,7 @@
   BINDING(scene, UniformTape, 18)       \
   /* lib/bricks.glsl */                 \
   BINDING(lattice, Bricks, 4)           \
-  /* points.comp, tape_points.comp, sorted_points.comp; lib/output.glsl, also of grid.comp */ \
+  /* points.comp, tape_points.comp and sorted_points.comp; grid.comp uses Results, too (lib/output.glsl). */ \
   BINDING(points, Points, 6)            \
   BINDING(points, Results, 7)           \
   BINDING(sorted_points, Jobs, 4)       \
@@ -32,7 +32,7 @@
   BINDING(sampled_volume, Nodes, 5)     \
   BINDING(volume_probe, Arguments, 4)   \
   BINDING(volume_probe, Results, 5)     \
-  /* The mesher's passes, in the order in which they run: first what most of them share. */ \
+  /* The buffers that most passes of the mesher share; then those of each pass, in the order in which they run. */ \
   BINDING(mesh, Jobs, 5)                \
   BINDING(mesh, SurfaceCases, 5)        \
   BINDING(mesh, Cells, 6)               \
@@ -80,7 +80,8 @@
 
 namespace isofield::engine {
 
-// What a kernel reads from uniform buffers, and how: bits of KernelKind::uniform_set (shaders/lib/parameters.glsl).
+// Bits of KernelKind::uniform_set: they say which parameters a kernel reads from uniform buffers, and how
+// (shaders/lib/parameters.glsl).
 inline constexpr std::uint32_t kLeavesAreUniform = 1, kOperationsAreUniform = 2, kTapeIsUniform = 4;
 inline constexpr std::uint32_t kLoadsAreShared = 8;  // the invocations of a subgroup load together
 

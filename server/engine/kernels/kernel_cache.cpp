@@ -15,7 +15,7 @@ namespace {
 using blobtree::Operand;
 using operators::Opcode;
 
-// Few distinct depths, so that scenes share kernels.
+// Rounds a depth up to one of a few, so that more scenes share kernels.
 std::uint32_t round_depth(std::uint32_t depth) {
   for (const std::uint32_t d : {0u, 1u, 2u, 4u, 8u}) {
     if (depth <= d) return d;
@@ -23,7 +23,7 @@ std::uint32_t round_depth(std::uint32_t depth) {
   return blobtree::kMaxStackDepth;
 }
 
-// The number of a set's only member, or kNone.
+// Returns the number of a set's only member, or kNone if it has none or several.
 template <class Code>
 std::uint32_t only(const blobtree::CodeSet<Code>& set) {
   if (set.size() != 1) return kNone;
@@ -44,7 +44,7 @@ std::uint32_t only_opcode(const blobtree::Codes& codes, std::uint32_t stack_dept
   return only(joins);
 }
 
-// Parameters that fit into a uniform buffer.
+// Returns the bits of uniform_set for the parameters that fit into a uniform buffer.
 std::uint32_t fitting_parameters(const blobtree::Tape& tape) {
   constexpr std::size_t kMost = gpu::kUniformBytes / 16;
   return (tape.leaf_records <= kMost ? kLeavesAreUniform : 0u) |
@@ -128,7 +128,7 @@ absl::StatusOr<gpu::SharedPipeline> KernelCache::get(const shaders::Spirv& shade
         kernels_[key].is_ready = true;
         ++compiled_;
       } else {
-        // A later request may find the memory that was missing.
+        // The failure is not kept, because a later request may find the memory that was missing.
         kernels_.erase(key);
       }
     }

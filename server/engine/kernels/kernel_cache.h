@@ -1,4 +1,5 @@
-// Pipelines by entry point and specialisation, compiled on first use; the least recently used are freed.
+// Keeps the compiled kernels of a device, by entry point and specialisation. It compiles a kernel on first use and
+// frees those that were used least recently.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -21,21 +22,21 @@
 
 namespace isofield::engine {
 
-// The values to which a kernel that runs tapes is specialised (server/engine/kernels/kernel_constants.h).
+// The values to which a kernel that runs tapes is specialised (engine/kernels/kernel_constants.h).
 struct KernelKind {
   blobtree::Codes codes;
   std::uint32_t stack_depth = 0;
-  std::uint32_t tape_length = 0;  // 0: any
+  std::uint32_t tape_length = 0;  // instructions of each tape; 0: tapes of any length
   std::uint32_t arity = 0;        // most operands of an operator that takes all of them at once
   std::uint32_t volume_set = 0;   // slots of volumes, by bits (shaders/lib/volume.glsl)
   std::uint32_t uniform_set = 0;  // parameters that are read from uniform buffers (shaders/lib/parameters.glsl)
 
-  // A kind that runs this tape and every tape pruned from it.
+  // Returns the kind of a kernel that runs this tape and every tape pruned from it.
   static KernelKind of(const blobtree::Tape& tape);
-  // A kind that runs those of them that are a single leaf.
+  // Returns the kind of a kernel that runs only those pruned tapes that are a single leaf; it knows no operators.
   static KernelKind single_leaf(const blobtree::Tape& tape);
 
-  // The values of specialisation constants 0, 1, 2, ...
+  // Returns the values of the specialisation constants 0, 1, 2, ...
   KernelConstants constants() const;
 };
 
@@ -43,7 +44,7 @@ struct KernelOptions {
   // The most kernels that are kept. A kernel takes some 0.25 MB on lavapipe, and the mesh of a scene needs about a
   // dozen.
   std::size_t most = 512;
-  // The specialised kernels, which other devices may share. Null: the cache makes its own.
+  // The specialised kernels, which caches of other devices may share. Null: the cache makes its own.
   std::shared_ptr<SpecialisedKernels> specialised;
 };
 
@@ -56,10 +57,11 @@ class KernelCache {
         most_(options.most),
         specialised_(options.specialised ? std::move(options.specialised) : std::make_shared<SpecialisedKernels>()) {}
 
-  // Calls `waits` before it waits for the driver to compile.
+  // Returns the kernel, and compiles it if need be. It calls `waits` before it waits for the driver to compile. Errors
+  // of the specialiser and the driver are returned and not kept: a later call compiles again.
   absl::StatusOr<gpu::SharedPipeline> get(const shaders::Spirv& shader, const KernelKind& kind = {},
                                           const std::function<void()>& waits = {});
-  // The variant of the shader that suits the device.
+  // Returns the variant of the shader that suits the device.
   const shaders::Spirv& of(const shaders::InRounds& shader) const;
 
   struct Counts {
@@ -72,7 +74,7 @@ class KernelCache {
   using Key = std::pair<const std::uint32_t*, KernelConstants>;
   struct Entry {
     std::shared_future<Compiled> kernel;
-    std::uint64_t last_used = 0;  // in calls of get()
+    std::uint64_t last_used = 0;  // the number of the call of get()
     bool is_ready = false;
   };
 
@@ -87,7 +89,7 @@ class KernelCache {
   std::uint64_t uses_ ABSL_GUARDED_BY(mutex_) = 0, compiled_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 
-// The kernels of one request. `waits` is called whenever the request has to wait for one to be compiled.
+// Gives one request its kernels. It calls `waits` whenever the request has to wait for a kernel to be compiled.
 class Kernels {
  public:
   Kernels(KernelCache& cache, std::function<void()> waits) : cache_(cache), waits_(std::move(waits)) {}

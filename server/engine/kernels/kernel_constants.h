@@ -1,5 +1,5 @@
-// The specialisation constants of kernels that run tapes: their numbers and names, from which
-// shaders/generators/code_texts.cpp writes what the shaders declare.
+// The numbers and names of the specialisation constants of kernels that run tapes. shaders/generators/code_texts.cpp
+// writes the shaders' declarations from them.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ namespace isofield::engine {
 enum class KernelConstant {
   kFlags,        // blobtree::Codes::Flag
   kOnlyOperand,  // the one leaf that all instructions have, or kNone where they differ
-  kOnlyOpcode,   // the one opcode of all instructions but the first, which pushes; or kNone where they differ
-  kStackDepth,   // values that wait beside the accumulator, at most
+  kOnlyOpcode,   // the one opcode of all instructions after the first, which pushes; or kNone where they differ
+  kStackDepth,   // the most values that wait beside the accumulator
   kTapeLength,   // instructions of every tape, or 0 where they differ
   kArity,        // most operands of an operator that takes all of them at once
-  kVolumeSet,    // the slots of volumes that are read, by bits
+  kVolumeSet,    // the slots of volumes that are read, a bit each
   kUniformSet,   // parameters in uniform buffers. 1: leaves, 2: operations, 4: tape; 8, with all: invocations share
                  // loads
   kCount
@@ -31,7 +31,7 @@ inline constexpr std::uint32_t kNone = 0xff;
 
 inline constexpr std::size_t kOperandWords = blobtree::CodeSet<blobtree::Operand>::kUsedWords;
 inline constexpr std::size_t kOpcodeWords = blobtree::CodeSet<operators::Opcode>::kUsedWords;
-// The words' names are these and a number.
+// The name of a word is one of these, followed by the word's number.
 inline constexpr const char* kOperandWordName = "OPERAND_SET_";
 inline constexpr const char* kOpcodeWordName = "OPERATOR_SET_";
 

@@ -1,4 +1,5 @@
-// Kernels without the code that a mix of opcodes does not use. These are what drivers get to compile.
+// Makes specialised kernels, and keeps them in memory and on disk: SPIR-V without the code that a mix of opcodes does
+// not use, which is what the driver is given to compile.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -19,17 +20,17 @@
 
 namespace isofield::engine {
 
-// Thread-safe. Several devices may share one.
+// Thread-safe. Several devices may share one object, because SPIR-V does not depend on the device.
 class SpecialisedKernels {
  public:
   using Kernel = std::shared_ptr<const std::vector<std::uint32_t>>;
   // The most kernels kept in memory, of some 0.1 MB each.
   static constexpr std::size_t kMostInMemory = 128;
 
-  // `folder` keeps the kernels on disk; if it is empty, nothing does.
+  // `folder` keeps the kernels on disk; if its name is empty, they are kept in memory alone.
   explicit SpecialisedKernels(const std::string& folder = {}) : store_(folder) {}
 
-  // How many kernels have been loaded from disk or made, because they were not in memory.
+  // Returns how many kernels were not in memory when they were asked for, and so were loaded from disk or made.
   std::uint64_t made() const { return made_; }
 
   absl::StatusOr<Kernel> get(const shaders::Spirv& shader, std::span<const std::uint32_t> constants);

@@ -17,11 +17,11 @@ namespace {
 
 constexpr char kExtension[] = ".spv";
 
-// A file: this head, the text, the SPIR-V.
+// A file begins with this head; the text and the SPIR-V follow.
 struct Head {
   std::array<char, 8> magic{'i', 's', 'o', 'S', 'P', 'V', '0', '1'};
   std::uint64_t text_bytes = 0, spirv_bytes = 0;
-  std::uint64_t hash = 0;  // of all that follows
+  std::uint64_t hash = 0;  // covers the text and the SPIR-V
 };
 static_assert(sizeof(Head) == 32);
 
@@ -34,7 +34,7 @@ Head head_of(std::string_view text, std::string_view spirv) {
       .text_bytes = text.size(), .spirv_bytes = spirv.size(), .hash = shaders::hash_of(spirv, shaders::hash_of(text))};
 }
 
-// Notes that a file has been used. A folder that cannot be written to serves all the same.
+// Notes that a file has been used. Errors are ignored, since files of a read-only folder can be used as well.
 void touch(const std::filesystem::path& path) {
   std::error_code ignored;
   std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), ignored);
@@ -60,7 +60,7 @@ void SpirvStore::prune() const {
   for (auto it = std::filesystem::directory_iterator(folder_, error); !error && it != std::filesystem::end(it);
        it.increment(error)) {
     std::error_code gone;
-    // What a process that was killed left half written goes, too.
+    // Half-written files of killed processes have more text after the extension; they count, and are removed, too.
     if (it->path().filename().string().find(kExtension) == std::string::npos) continue;
     Kept file{it->last_write_time(gone), 0, it->path()};
     if (!gone) file.bytes = it->file_size(gone);
@@ -101,7 +101,7 @@ void SpirvStore::save(std::string_view text, const std::vector<std::uint32_t>& s
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   const std::filesystem::path path = path_of(text);
-  // Whole, or not there at all.
+  // The file is written under another name and then renamed, so that no process sees half of it.
   std::filesystem::path partial = path;
   static std::atomic<std::uint64_t> saves = 0;
   partial += absl::StrCat(".", getpid(), ".", ++saves);

@@ -1,4 +1,5 @@
-// Compiled kernels on disk, by the text that they were compiled from.
+// Keeps compiled kernels on disk, by the text that they were compiled from, so that a later process need not compile
+// them.
 #pragma once
 
 #include <atomic>
@@ -10,20 +11,20 @@
 
 namespace isofield::engine {
 
-// A file a kernel, named by the hash of its text, which it holds beside the SPIR-V. Thread-safe; processes may share a
-// folder.
+// Each kernel is a file, named by the hash of its text; the file holds the text and the SPIR-V. Thread-safe; several
+// processes may share a folder.
 class SpirvStore {
  public:
   static constexpr std::uintmax_t kMostBytes = std::uintmax_t{256} << 20;
 
-  // An empty folder's name means that nothing is kept. If the folder holds more than `most_bytes`, the files that have
-  // not been read or written for longest are removed. This happens on construction, and whenever a further sixteenth of
-  // `most_bytes` has been saved.
+  // If the folder's name is empty, nothing is kept. If the folder holds more than `most_bytes`, the store removes the
+  // files that have not been read or written for longest. It does so on construction, and whenever a further sixteenth
+  // of `most_bytes` has been saved.
   explicit SpirvStore(std::filesystem::path folder, std::uintmax_t most_bytes = kMostBytes);
 
-  // Nothing where there is no such file, or where it is cut short, changed, or of another text.
+  // Returns nothing if there is no such file, or if the file is cut short, was changed, or belongs to another text.
   std::optional<std::vector<std::uint32_t>> load(std::string_view text) const;
-  // A failure leaves what was there: the kernel is compiled again.
+  // A failure leaves the folder as it was; the kernel is then compiled again when it is next needed.
   void save(std::string_view text, const std::vector<std::uint32_t>& spirv) const;
 
  private:

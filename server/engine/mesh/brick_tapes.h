@@ -1,4 +1,5 @@
-// Kernels that follow the tapes of a mesh's bricks.
+// BrickTapes runs the mesher's kernels that evaluate the field: it holds the tapes of a mesh's bricks, and gives every
+// brick the kernel and the window that its tape needs.
 #pragma once
 
 #include <absl/status/status.h>
@@ -18,30 +19,32 @@
 
 namespace isofield::engine {
 
+// Belongs to one thread. Owns the tapes' buffers.
 class BrickTapes {
  public:
-  // Takes the list's code, and lets its bricks' tapes begin in their windows. What is given must outlive it.
+  // Takes the code out of `list`, and changes the beginnings of the bricks' tapes to places in their windows. All
+  // arguments must outlive it.
   BrickTapes(gpu::Device& device, const Kernels& kernels, const ResidentScene& scene, blobtree::BrickList& list);
   absl::Status upload(Session& session) { return windows_.upload(session); }
 
-  // What jobs must have in common to be done by one dispatch: the window that their bricks' tapes are in, and the
-  // kernel. Tapes that are a single leaf have the kernel that knows no operator, others the scene's.
+  // Jobs with the same Kernel go into one dispatch: they share the window of their bricks' tapes, and the kernel. Tapes
+  // that are a single leaf have a kernel without operators; all others have the scene's.
   struct Kernel {
     std::uint32_t window;
     bool is_single;
     auto operator<=>(const Kernel&) const = default;
   };
-  using Job = std::array<std::uint32_t, 2>;  // a brick, and what of it
+  using Job = std::array<std::uint32_t, 2>;  // a brick's number; a number that the shader understands, such as an octet
   using Jobs = std::map<Kernel, std::vector<Job>>;
   Kernel kernel_of(std::uint32_t brick) const { return {window_of_[brick], bricks_[brick].tape_count == 1}; }
 
-  // Records the jobs, `per_workgroup` in each workgroup, with a list of them beside the shader's own bindings. The
-  // constants' first and count become those of each kernel's jobs.
+  // Records the dispatches of all jobs, `per_workgroup` jobs in each workgroup. It adds the list of jobs to the
+  // shader's `own` bindings, and sets first and count of the constants to the jobs of each kernel.
   absl::Status run(Session& session, const shaders::Spirv& shader, MeshConstants constants, const Jobs& jobs,
                    std::uint32_t per_workgroup, gpu::Commands::Bindings own);
 
-  // Records a job for each wanted brick from `first` to before first + count, in a workgroup of its own. The second
-  // number of the job is the brick's number from `first` on.
+  // Records a job for each wanted brick from `first` to before first + count, each in a workgroup of its own. The
+  // second number of a job is the brick's number counted from `first`.
   template <class Wanted>
   absl::Status run_each(Session& session, const shaders::Spirv& shader, const MeshConstants& constants,
                         std::uint32_t first, std::uint32_t count, const Wanted& is_wanted,
@@ -59,7 +62,7 @@ class BrickTapes {
   const ResidentScene& scene_;
   const std::vector<blobtree::Brick>& bricks_;
   TapeWindows windows_;
-  std::vector<std::uint32_t> window_of_;  // of the bricks' tapes
+  std::vector<std::uint32_t> window_of_;  // the window of each brick's tape
 };
 
 }  // namespace isofield::engine

@@ -17,23 +17,25 @@ using blobtree::Box;
 using blobtree::Leaf;
 using blobtree::Tape;
 
-// Coarse lattices have at most so many bricks: some milliseconds of one core for scenes of few primitives.
+// Coarse lattices have at most this many bricks, which take some milliseconds of one core in scenes of few primitives.
 constexpr std::uint64_t kQuickBricks = 1u << 13;
-// A cell is refused without culling its bricks where two estimates find so many times those that are admitted.
+// A cell size is refused without culling if two estimates both find this many times the bricks that are admitted.
 constexpr double kFar = 1.5;
-// Cells so many times the scene's longest edge take as few bricks as there can be.
+// Cells of this many times the scene's longest edge take as few bricks as is possible.
 constexpr double kCoarsestOfEdge = 64;
 
-// How far from a shape's own surface, outward, the field of its leaf is iso: in the shape's own frame.
+// Returns the distance outward from the shape's own surface at which the field of its leaf is iso, in the shape's
+// frame.
 double offset_at(const Leaf& leaf, double iso) {
   if (leaf.law == operators::Law::kSigned) return iso / leaf.per_distance;
   const double r0 = std::sqrt(1 - std::cbrt(0.5));
   return leaf.range * (std::sqrt(1 - std::cbrt(iso)) - r0) / (1 - r0);
 }
 
-// The least radius of a primitive where its field is iso, in world lengths; 0 or less where it has no surface there.
+// Returns the least radius of a primitive where its field is iso, in world lengths; 0 or less if it has no surface
+// there.
 double least_radius(const Leaf& leaf, const Tape& tape, double iso) {
-  // Operators that lead from one law to the other take other levels of what is below them.
+  // An operator that leads from one law to the other takes other levels of its operand than iso.
   return leaf.feature_size(leaf.law == tape.law ? offset_at(leaf, iso) : 0);
 }
 
@@ -45,14 +47,14 @@ double longest_edge(const Tape& tape, const MeshRequest& request) {
   return blobtree::longest_edge(request.bounds.value_or(tape.support));
 }
 
-// Bricks that a request takes with cells of another size.
+// Counts the bricks that a request takes with cells of another size.
 class BrickCounter {
  public:
   BrickCounter(const Tape& tape, const MeshRequest& request, const std::function<bool()>& cancelled,
                const base::ForEach& for_each = {})
       : tape_(tape), request_(request), cancelled_(cancelled), for_each_(for_each) {}
 
-  // most + 1 when there are more.
+  // Returns most + 1 if there are more than `most`.
   absl::StatusOr<std::uint64_t> count(double cell_size, std::uint64_t most) {
     request_.cell_size = cell_size;
     const auto lattice = mesh_lattice(tape_, request_);
@@ -70,11 +72,11 @@ class BrickCounter {
   const base::ForEach for_each_;
 };
 
-// The finest of the cell sizes edge / 16 * 2^(n / 2) that takes at most so many bricks.
+// The finest of the cell sizes edge / 16 * 2^(n / 2) that takes at most a given number of bricks.
 struct CoarseLook {
   double cell = 0;
-  double bricks = 0;  // at that size
-  double growth = 2;  // bricks grow as cell^-growth there
+  double bricks = 0;  // the number of bricks at that size
+  double growth = 2;  // near that size the number of bricks grows as cell^-growth
 };
 constexpr double kLookStep = std::numbers::sqrt2;
 
@@ -104,7 +106,7 @@ absl::StatusOr<CoarseLook> look_coarsely(BrickCounter& counter, double edge, std
   return look;
 }
 
-// Two digits more than a search to some per cent is worth.
+// Rounds up to four digits, two more than a search to some per cent is worth.
 double rounded_up(double size) {
   const double unit = std::pow(10, std::floor(std::log10(size)) - 3);
   return std::ceil(size / unit) * unit;
@@ -133,8 +135,8 @@ std::optional<ThinPrimitives> too_thin(const Tape& tape, const MeshRequest& requ
 absl::StatusOr<bool> is_far_too_fine(const Tape& tape, const MeshRequest& request, std::uint64_t max_bricks,
                                      const std::function<bool()>& cancelled) {
   if (max_bricks <= kQuickBricks) return false;
-  // A brick crosses a piece of the surface that is two thirds of its face: this estimate is low where primitives lie
-  // apart. The other one, of coarse lattices, is low where primitives are inside of others.
+  // A brick that the surface crosses holds a piece of it of two thirds of a face's area. So this estimate is low where
+  // primitives lie apart. The other one, from coarse lattices, is low where primitives lie inside others.
   double area = 0;
   for (const Leaf& leaf : tape.leaves) {
     if (counts(leaf, request)) area += leaf.area();
@@ -143,7 +145,7 @@ absl::StatusOr<bool> is_far_too_fine(const Tape& tape, const MeshRequest& reques
   if (area <= kFar * static_cast<double>(max_bricks) * brick * brick) return false;
   BrickCounter counter(tape, request, cancelled);
   ISOFIELD_ASSIGN_OR_RETURN(const CoarseLook look, look_coarsely(counter, longest_edge(tape, request), kQuickBricks));
-  // Few bricks say little of how they grow.
+  // A few bricks say little about how their number grows.
   if (look.bricks < kQuickBricks / 4.0) return false;
   return look.bricks * std::pow(look.cell / request.cell_size, std::min(look.growth, 2.0)) >
          kFar * static_cast<double>(max_bricks);
@@ -155,7 +157,8 @@ absl::StatusOr<FittingCell> fitting_cell(const Tape& tape, const MeshRequest& re
   const double edge = longest_edge(tape, request);
   ISOFIELD_ASSIGN_OR_RETURN(const CoarseLook look, look_coarsely(counter, edge, std::min(max_bricks, kQuickBricks)));
   if (max_bricks > kQuickBricks) {
-    // Bricks grow by the square in the end, or faster while there are several parts of the surface in most.
+    // The number of bricks grows by the square in the end; it grows faster while most bricks hold several parts of the
+    // surface.
     const double growth = std::clamp(look.growth, 2.0, 3.0);
     const double size = look.cell * std::pow(look.bricks / static_cast<double>(max_bricks), 1 / growth);
     return FittingCell{rounded_up(std::max(1.03 * size, least_cell_size(tape, request))), false};
@@ -187,7 +190,7 @@ absl::StatusOr<double> automatic_cell_size(const Tape& tape, const MeshRequest& 
   }
   ISOFIELD_ASSIGN_OR_RETURN(const FittingCell fitting, fitting_cell(tape, request, most, cancelled));
   if (fitting.is_exact) return std::max(fitting.size, wanted.cell_size);
-  // From the extrapolated size to one that is known to fit and to use most of what is admitted.
+  // Search from the extrapolated size for one that is known to fit and uses most of the bricks that are admitted.
   constexpr double kWellUsed = 0.85, kAimedAt = 0.93, kNarrow = 1.04;
   const auto admitted = static_cast<double>(most);
   double too_small = wanted.cell_size, cell = std::max(fitting.size, kNarrow * too_small), fits = 0;

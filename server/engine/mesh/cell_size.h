@@ -1,4 +1,5 @@
-// How fine the cells of a lattice have to be for a scene, and how fine they can be.
+// Finds cell sizes for a scene: how fine the cells of a lattice must be for its thinnest primitive, and how fine they
+// can be within a limit on their number.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -13,37 +14,38 @@
 
 namespace isofield::engine {
 
-// The largest cell, in radii of a primitive, that cannot tear it apart: a ball of radius r holds a corner of a cubic
-// lattice wherever it lies when a cell's edge is at most 2 r / sqrt(3), and corners of balls along a path are joined by
-// edges of cells.
+// The largest cell, in radii of a primitive, that cannot tear the primitive apart. If a cell's edge is at most
+// 2 r / sqrt(3), a ball of radius r holds a corner of the cubic lattice wherever it lies, and edges of cells join the
+// corners in balls along a path.
 inline constexpr double kCoarsestCellOfRadius = 1.1547;
 
-// Primitives for which a cell is too coarse: with the thinnest of them.
+// The primitives for which a cell is too coarse, and the thinnest of them.
 struct ThinPrimitives {
-  std::uint32_t node = 0;        // in Scene::nodes: the thinnest primitive
-  double thickness = 0;          // twice the least radius of that primitive where the field is iso; model units
-  double cell_size = 0;          // the largest cell that is fine enough for it
-  std::uint64_t primitives = 0;  // how many are too thin
+  std::uint32_t node = 0;        // the thinnest primitive, in Scene::nodes
+  double thickness = 0;          // twice the least radius of that primitive where its field is iso; model units
+  double cell_size = 0;          // the largest cell that is fine enough for it; model units
+  std::uint64_t primitives = 0;  // how many primitives are too thin
 };
-// Nothing: request.cell_size is fine enough for every primitive within the bounds.
+// Returns nothing if request.cell_size is fine enough for every primitive within the bounds.
 std::optional<ThinPrimitives> too_thin(const blobtree::Tape& tape, const MeshRequest& request);
 
-// A cell size for a request that states none: the thinnest primitive is two cells across and the longest edge at least
-// kAutomaticCellsAlong, or as fine as request.max_cells admits.
+// Returns a cell size for a request that states none: the thinnest primitive is at least two cells across, and the
+// longest edge at least kAutomaticCellsAlong cells. If request.max_cells does not admit this, the size is the finest
+// that fits.
 inline constexpr double kAutomaticCellsAlong = 200;
 absl::StatusOr<double> automatic_cell_size(const blobtree::Tape& tape, const MeshRequest& request,
                                            const std::function<bool()>& cancelled = {},
                                            const base::ForEach& for_each = {});
 
-// Whether request.cell_size takes far more bricks than max_bricks, by the primitives' areas and by what coarse lattices
-// take; costs milliseconds. False where that is in doubt.
+// Returns true if request.cell_size takes far more bricks than max_bricks. It estimates that in milliseconds, from the
+// primitives' areas and from the bricks of coarse lattices; it returns false if the estimates leave a doubt.
 absl::StatusOr<bool> is_far_too_fine(const blobtree::Tape& tape, const MeshRequest& request, std::uint64_t max_bricks,
                                      const std::function<bool()>& cancelled);
 
 // The smallest cell size whose bricks are admitted.
 struct FittingCell {
-  double size = 0;
-  // Found to a few per cent. Otherwise what coarse lattices take was extrapolated, which costs milliseconds.
+  double size = 0;  // model units
+  // True: found to a few per cent. False: extrapolated from coarse lattices, which takes only milliseconds.
   bool is_exact = true;
 };
 absl::StatusOr<FittingCell> fitting_cell(const blobtree::Tape& tape, const MeshRequest& request,

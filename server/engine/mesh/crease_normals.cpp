@@ -13,30 +13,33 @@ namespace {
 
 using blobtree::dvec3;
 
-// The cosine of 15 degrees. Triangles lean over curved sides by some degrees, so a crease is taken to go on along edges
-// that turn by less than 25, if the normal at one of their ends is that of a side.
+// The cosine of 15 degrees. Triangles deviate from curved sides by some degrees. So a crease goes on along edges that
+// turn by 15 to 25 degrees, if the normal at one of their ends is that of a side.
 constexpr double kLeastAlong = 0.9659258262890683;
-// Of the two triangles at such an edge one faces at least half of that away from the normal at either end: cosine.
+// The cosine of 12.5 degrees. If two triangles turn by 25 degrees at an edge, one of them faces at least half of that
+// away from the normal at either end.
 constexpr double kHalfTurn = 0.9762960071199334;
-// Across an edge of a curved surface the normals at its ends lie midway between those of its triangles, and the normals
-// at the corners that face it turn by twice as much as the triangles. At a crease a normal is that of one side, and the
-// corners' turn by as much as the triangles; where creases are near one another they may say anything.
+// If an edge lies on a curved surface, the normals at its ends lie midway between those of its two triangles, and the
+// normals at the two opposite corners turn by twice as much as the triangles. If it is a crease, the normal at an end
+// is that of one side, and the opposite corners' normals turn by as much as the triangles; near a second crease they
+// may be arbitrary. The first number is a part of the triangles' turn, the second a part of the corners' turn.
 constexpr double kMostOfTurn = 0.85, kLeastOfCorners = 0.9;
-// The mesher gives vertices on seams, which turn by less than a crease, the mean of both sides' normals.
+// On a seam, which turns by less than a crease, the mesher gives vertices the mean of both sides' normals. An edge is
+// smooth if the normals at both its ends are at most this part of the turn away from either triangle's.
 constexpr double kMeanOfTurn = 0.7;
-// Of a unit normal, what is left without its part along the edge.
+// A unit normal with less than this length across the edge tells nothing about the sides of the edge.
 constexpr double kLeastAcross = 0.1;
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoWedge = std::numeric_limits<std::uint32_t>::max();
 
 double angle(const dvec3& a, const dvec3& b) {
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-// kMayGoOn: part of a crease if it is in a row with one.
+// kMayGoOn: the edge belongs to a crease if it is in a row with a crease.
 enum class EdgeKind : std::uint8_t { kSmooth, kMayGoOn, kCrease };
 
-// Looks at the triangles around vertices that creases may pass through, which are few in most meshes. Their corners are
-// numbered anew.
+// Looks only at the triangles around vertices that creases may pass through, which are few in most meshes, and numbers
+// their corners anew.
 class CreaseFinder {
  public:
   explicit CreaseFinder(const Mesh& mesh) : mesh_(mesh) {
@@ -49,8 +52,8 @@ class CreaseFinder {
     DisjointSets sides = find_sides();
     const std::vector<bool> is_split = split_vertices(sides);
     CreaseNormals out;
-    std::vector<std::uint32_t> wedge_of(corners_.size()), first_wedges(is_split.size(), kNone);
-    std::vector<dvec3> sums;  // of wedges
+    std::vector<std::uint32_t> wedge_of(corners_.size()), first_wedges(is_split.size(), kNoWedge);
+    std::vector<dvec3> sums;  // the sum of each wedge's normals
     for (std::uint32_t c = 0; c < corners_.size(); ++c) {
       const std::uint32_t vertex = corners_[c];
       if (!is_split[vertex]) continue;
@@ -59,7 +62,7 @@ class CreaseFinder {
         wedge_of[c] = static_cast<std::uint32_t>(out.vertices.size());
         out.vertices.push_back(vertex);
         sums.emplace_back();
-        if (first_wedges[vertex] == kNone) first_wedges[vertex] = wedge_of[c];
+        if (first_wedges[vertex] == kNoWedge) first_wedges[vertex] = wedge_of[c];
       }
       const std::uint32_t wedge = wedge_of[c] = wedge_of[first];
       if (wedge != first_wedges[vertex]) out.corners.insert(out.corners.end(), {3 * numbers_[c / 3] + c % 3, wedge});
@@ -110,7 +113,7 @@ class CreaseFinder {
     return sides;
   }
 
-  // Vertices with more than one side.
+  // Finds the vertices that have more than one side.
   std::vector<bool> split_vertices(DisjointSets& sides) const {
     std::vector<bool> has_side(may_split_.size()), is_split(may_split_.size());
     for (std::uint32_t c = 0; c < corners_.size(); ++c) {
@@ -122,7 +125,7 @@ class CreaseFinder {
     return is_split;
   }
 
-  // Visits each inner edge by the corners at which its two sides begin.
+  // Visits each edge that has two half-edges, by the corners at which they begin.
   template <class Visit>
   void for_edges(const Visit& visit) const {
     for (std::uint32_t c = 0; c < twins_.size(); ++c) {
@@ -130,19 +133,19 @@ class CreaseFinder {
     }
   }
 
-  // Returns the kinds of edges, each at the corner that is visited first. It leaves in may_split_ the vertices that
-  // have sides: those that a crease passes by two of their edges.
+  // Returns the kinds of edges; the kind of an edge is stored at the first of its two corners. It leaves true in
+  // may_split_ only for vertices with at least two edges on creases, which divide their triangles into sides.
   std::vector<EdgeKind> find_creases() {
     std::vector<EdgeKind> kinds(twins_.size(), EdgeKind::kSmooth);
-    std::vector<std::uint32_t> creases(may_split_.size());  // around each vertex
-    DisjointSets rows(may_split_.size());                   // of edges that may be creases, by a vertex each
+    std::vector<std::uint32_t> creases(may_split_.size());  // the number of crease edges at each vertex
+    DisjointSets rows(may_split_.size());                   // joins the vertices along edges that may be creases
     const auto count = [&](std::uint32_t c, std::uint32_t d) { ++creases[corners_[c]], ++creases[corners_[d]]; };
     for_edges([&](std::uint32_t c, std::uint32_t d) {
       kinds[c] = kind_of(c, d);
       if (kinds[c] == EdgeKind::kCrease) count(c, d);
       if (kinds[c] != EdgeKind::kSmooth) rows.join(corners_[c], corners_[d]);
     });
-    std::vector<bool> has_crease(rows.size());  // by the rows' roots
+    std::vector<bool> has_crease(rows.size());  // by the root of each row
     for (std::uint32_t v = 0; v < rows.size(); ++v) {
       if (creases[v] > 1) has_crease[rows.root(v)] = true;
     }
@@ -162,7 +165,7 @@ class CreaseFinder {
     const dvec3 edge = position(next_corner(c)) - position(c);
     const double size = length(edge);
     const dvec3 along = size > 0 ? edge * (1 / size) : dvec3{0, 0, 1};
-    // The angle between the normal and the further triangle, as a part of the turn.
+    // Returns the angle between a normal and the triangle that is further from it, as a part of the turn.
     const auto part_of_turn = [&](const dvec3& n) {
       const dvec3 across = n - along * dot(n, along);
       return length(across) > kLeastAcross ? std::max(angle(across, f), angle(across, g)) / turn : 1;
@@ -175,9 +178,9 @@ class CreaseFinder {
   }
 
   const Mesh& mesh_;
-  std::vector<bool> may_split_;         // vertices
-  std::vector<std::uint32_t> numbers_;  // of the chosen triangles in the mesh
-  std::vector<std::uint32_t> corners_;  // of them: vertices
+  std::vector<bool> may_split_;         // by vertex
+  std::vector<std::uint32_t> numbers_;  // the numbers of the chosen triangles in the mesh
+  std::vector<std::uint32_t> corners_;  // the vertices of their corners
   std::vector<std::uint32_t> twins_;
   std::vector<dvec3> directions_;
 };

@@ -11,7 +11,7 @@ CreaseWedges crease_wedges(const Mesh& mesh) {
   const auto corner_count = static_cast<std::uint32_t>(mesh.triangles.size());
   const std::vector<std::uint32_t> twins = find_twins(mesh.triangles, mesh.positions.size() / 3);
   const std::vector<blobtree::dvec3> directions = face_directions(mesh.positions, mesh.triangles, twins);
-  DisjointSets corners(corner_count);  // that smooth edges join
+  DisjointSets corners(corner_count);  // smooth edges join the corners at their ends
   for (std::uint32_t c = 0; c < corner_count; ++c) {
     const std::uint32_t d = twins[c];
     if (d == kNoTwin || d < c || dot(directions[c / 3], directions[d / 3]) <= kCreaseCosine) continue;

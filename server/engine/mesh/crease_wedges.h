@@ -1,4 +1,4 @@
-// A mesh cut open along its creases.
+// Cuts a mesh open along its creases, so that the sides of a crease share no vertices.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,16 @@
 
 namespace isofield::engine {
 
-// The triangles around a vertex fall into wedges where creases run through it: one wedge away from creases and at a
-// crease's end, two along it, more where creases meet. Wedges below the number of vertices bear their vertex's number.
+// Creases divide the triangles around a vertex into wedges: one wedge away from creases and at a crease's end, two
+// along a crease, more where creases meet. Wedges with numbers below the number of vertices have the number of their
+// vertex.
 struct CreaseWedges {
-  std::vector<std::uint32_t> vertices;  // of each wedge
-  std::vector<Triangle> triangles;      // wedge numbers
+  std::vector<std::uint32_t> vertices;  // the vertex of each wedge
+  std::vector<Triangle> triangles;      // the mesh's triangles, by wedge numbers
 };
 
-// Creases are rows of edges at which the triangles turn by 25 degrees or more; a single one is none, and cuts nothing.
-// Triangles face as face_directions() says.
+// Creases are rows of edges at which the triangles turn by 25 degrees or more; a single such edge cuts nothing. The
+// triangles' normals are those of face_directions().
 CreaseWedges crease_wedges(const Mesh& mesh);
 
 }  // namespace isofield::engine

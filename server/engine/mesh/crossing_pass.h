@@ -1,4 +1,4 @@
-// The mesher's pass that finds where the surface crosses edges of the lattice, and its normals there
+// The pass of the mesher that finds where the surface crosses edges of the lattice, and its normals there
 // (shaders/mesh_crossings.comp).
 #pragma once
 
@@ -14,7 +14,8 @@
 
 namespace isofield::engine {
 
-// Of the quads' edges of the slab's wanted bricks, into `crossings` (3 numbers a quad of the part).
+// Finds the crossings of the quads' edges in the slab's wanted bricks, and writes them to `crossings`, which has 3
+// numbers for each quad of the part.
 absl::Status find_crossings(PartOnDevice& part, const MeshSlab& slab, const PartElements& elements,
                             const gpu::Buffer& crossings, const std::function<bool(std::uint32_t brick)>& is_wanted);
 

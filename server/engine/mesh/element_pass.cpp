@@ -22,7 +22,7 @@ absl::Status sum_up(const PartOnDevice& part, std::span<const MeshStart> counts,
     quads += c[1];
     starts.push_back({static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(quads)});
   }
-  // Of 12 bytes a vertex, and 16 a quad (QuadCutter).
+  // The largest buffers take 12 bytes a vertex, and 16 a quad (QuadCutter).
   const std::uint64_t most = part.device.description().max_buffer_bytes;
   if (12 * vertices <= most && 16 * quads <= most) return absl::OkStatus();
   return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", part.request.cell_size, " makes ", vertices,

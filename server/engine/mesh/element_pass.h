@@ -1,5 +1,5 @@
-// The mesher's passes that number a part's vertices and quads and list them by brick (shaders/mesh_connect.comp,
-// mesh_list.comp).
+// The passes of the mesher that number a part's vertices and quads, its elements, and list them by brick
+// (shaders/mesh_connect.comp, mesh_list.comp).
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -15,10 +15,10 @@
 namespace isofield::engine {
 
 struct PartElements {
-  std::vector<MeshStart> starts;  // first vertex and first quad of each brick, and the totals
+  std::vector<MeshStart> starts;  // first vertex and first quad of each brick, then the totals
   gpu::Buffer starts_buffer;
-  gpu::Buffer cells;            // a word each, as shaders/lib/mesh_constants.glsl states
-  gpu::Buffer vertices, quads;  // the lists
+  gpu::Buffer cells;            // a word a cell, as shaders/lib/mesh_constants.glsl states
+  gpu::Buffer vertices, quads;  // the lists, by brick
 
   std::uint32_t vertex_count() const { return starts.back()[0]; }
   std::uint32_t quad_count() const { return starts.back()[1]; }
@@ -26,9 +26,10 @@ struct PartElements {
   bool has_quads(std::uint32_t brick) const { return starts[brick + 1][1] > starts[brick][1]; }
 };
 
-// The cells, and how many elements each brick has. RESOURCE_EXHAUSTED: more than the device holds in a buffer.
+// Fills in the cells, and counts the elements of each brick (`starts`). RESOURCE_EXHAUSTED: there are more elements
+// than a buffer of the device holds.
 absl::StatusOr<PartElements> connect_cells(PartOnDevice& part, const PartSamples& samples);
-// What is left of them.
+// Fills in the other members of `elements`.
 absl::Status list_elements(PartOnDevice& part, PartElements& elements);
 
 }  // namespace isofield::engine

@@ -1,5 +1,5 @@
-// Meshes that were made, kept while their scene is resident and room is left: the same request again costs no device
-// time.
+// MeshCache keeps meshes while their scene is resident and there is room, so that the same request costs no device time
+// when it comes again.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@
 
 namespace isofield::engine {
 
-// Thread-safe. The least recently used give way.
+// Thread-safe. The least recently used meshes give way to new ones.
 class MeshCache {
  public:
   using Parts = std::vector<std::shared_ptr<const MeshCells>>;
   struct Kept {
     Parts parts;
-    std::optional<ShellCounts> shells;  // where they were counted
+    std::optional<ShellCounts> shells;  // absent if they were not counted
   };
 
   explicit MeshCache(std::uint64_t max_bytes = std::uint64_t{256} << 20) : max_bytes_(max_bytes) {}
 
-  // Null: not kept.
+  // Returns null if the mesh is not kept.
   std::shared_ptr<const Kept> find(const ResidentScene& scene, const MeshRequest& request);
   void keep(const ResidentScene& scene, const MeshRequest& request, Kept mesh);
 

@@ -1,4 +1,5 @@
-// A mesh by bricks of its lattice: what each holds of it, named so that it means the same whatever else is meshed.
+// MeshCells holds a mesh, or a part of one, brick by brick. Triangles name their vertices by brick, so that a brick's
+// data are the same whatever else is meshed. MeshJoiner makes a plain Mesh of them.
 #pragma once
 
 #include <absl/container/flat_hash_map.h>
@@ -12,7 +13,7 @@ namespace isofield::engine {
 struct Mesh {
   std::vector<float> positions, normals;  // 3 a vertex
   std::vector<std::uint32_t> triangles;   // 3 a triangle, counter-clockwise from outside
-  std::uint64_t cells = 0;                // looked at
+  std::uint64_t cells = 0;                // the number of cells in the bricks that were meshed
 };
 
 struct MeshBrick {
@@ -20,21 +21,21 @@ struct MeshBrick {
   std::uint32_t vertices, triangles;  // how many it has
 };
 
-// Vertices and triangles lie brick by brick. A triangle belongs to the brick of the lattice edge that it stands around,
-// and its vertices to that brick or to one beside it whose coordinates are one less.
+// Vertices and triangles are stored brick by brick. A triangle belongs to the brick of the lattice edge that its quad
+// surrounds. Its vertices belong to that brick or to a neighbour with coordinates that are one less.
 struct MeshCells {
-  std::vector<MeshBrick> bricks;          // in order of place; those that hold nothing are left out
+  std::vector<MeshBrick> bricks;          // in order of place (comes_before()); bricks that hold nothing are left out
   std::vector<float> positions, normals;  // 3 a vertex; normals may be absent
-  // 3 a triangle: bits 0-23 the vertex's number in its brick, bits 24-26 which of the brick's x, y, z are one less than
-  // those of the triangle's.
+  // 3 a triangle. Bits 0-23 are the vertex's number in its brick; bits 24-26 say which of x, y and z of that brick are
+  // one less than those of the triangle's brick.
   std::vector<std::uint32_t> corners;
-  std::uint64_t cells = 0;  // looked at
+  std::uint64_t cells = 0;  // the number of cells in the bricks that were meshed
 };
 
-// Layers of so many bricks along z come one after the other, so that a mesh can be made and sent in layers; within one
-// the bricks lie in Morton order.
+// The order of place: layers of this many bricks along z come one after the other, so that a mesh can be made and sent
+// in layers, and within a layer the bricks have Morton order.
 inline constexpr std::uint32_t kLayerBricks = 8;
-// Of the bricks of a mesh. `a` and `b` have x, y and z.
+// Returns true if brick `a` comes before brick `b` in the order of place. Both have members x, y and z.
 template <class A, class B>
 bool comes_before(const A& a, const B& b) {
   if (a.z / kLayerBricks != b.z / kLayerBricks) return a.z / kLayerBricks < b.z / kLayerBricks;
@@ -47,12 +48,13 @@ bool comes_before(const A& a, const B& b) {
   return is_before;
 }
 
-// Numbers the vertices of cells that come in order of place, from the first brick of a mesh on.
+// Numbers the vertices of a whole mesh from its parts. The parts must come in order of place, from the first brick of
+// the mesh on. Not thread-safe.
 class MeshJoiner {
  public:
-  // The triangles of `part` by numbers of vertices in the whole mesh.
+  // Returns the triangles of `part` by numbers of vertices in the whole mesh.
   std::vector<std::uint32_t> number(const MeshCells& part);
-  // Calls visit(corner, vertex) for each corner of them.
+  // Calls visit(corner, vertex) for each corner of these triangles.
   template <class Visit>
   void for_each_corner(const MeshCells& part, Visit&& visit);
   // Appends the part to `mesh`.

@@ -11,7 +11,7 @@ namespace {
 using blobtree::Instruction;
 using operators::Opcode;
 
-// Whether each of the tape's operations may crease, by their places.
+// Returns, for each of the tape's operations in their order, whether it may make a crease.
 std::vector<char> creasing_operations(const blobtree::Tape& tape) {
   std::vector<char> found;
   found.reserve(tape.operations.size());
@@ -23,7 +23,7 @@ std::vector<char> creasing_operations(const blobtree::Tape& tape) {
   return found;
 }
 
-// The leaves' operands of which some have edges.
+// Returns the operands, that is, the kinds of leaves, of which some leaf of the tape may have edges.
 blobtree::CodeSet<blobtree::Operand> edged_operands(const blobtree::Tape& tape) {
   blobtree::CodeSet<blobtree::Operand> found;
   for (const blobtree::Leaf& leaf : tape.leaves) {
@@ -52,7 +52,7 @@ std::vector<std::uint32_t> brick_kinds(const blobtree::Tape& tape, const blobtre
     const auto begin = list.code.begin() + list.bricks[b].tape_begin;
     if (!std::any_of(begin, begin + list.bricks[b].tape_count, creases)) continue;
     kinds[b] |= kMayCrease | kKnowsCrossings;
-    // Edges at the upper faces of a brick belong to those above.
+    // The lattice edges on the upper faces of a brick belong to the bricks above.
     for (const std::size_t slot : kNeighboursAbove) {
       const std::uint32_t above = neighbours[kNeighbours * b + slot];
       if (above != ~0u) kinds[above] |= kKnowsCrossings;

@@ -1,4 +1,4 @@
-// Where a scene's surface may have creases: elsewhere the mesher need not look for any.
+// Finds the bricks in which a scene's surface may have creases, so that the mesher looks for creases only there.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@
 
 namespace isofield::engine {
 
-// kKnowsCrossings and kMayCrease of every brick, from its tape. `neighbours` as brick_neighbours gives them. Sums,
-// blends that never become a sharp union where gradients differ by 30 to 150 degrees, and round shapes make no crease.
+// Returns kKnowsCrossings and kMayCrease of every brick, which it finds from the brick's tape. `neighbours` must come
+// from brick_neighbours(). Sums, round shapes, and blends that never become a sharp union where gradients differ by 30
+// to 150 degrees make no crease.
 std::vector<std::uint32_t> brick_kinds(const blobtree::Tape& tape, const blobtree::BrickList& list,
                                        const std::vector<std::uint32_t>& neighbours);
 

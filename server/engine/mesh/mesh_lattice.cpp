@@ -21,7 +21,8 @@ using blobtree::BrickList;
 using blobtree::CullRequest;
 using blobtree::Lattice;
 
-// Cells along an axis, when the bounds' corner, and room around derived bounds, are counted in.
+// The cells along an axis that are left for the scene, after those for the alignment and the room around derived
+// bounds.
 constexpr double kUsableCells = kMaxCellsPerAxis - 4 - kLatticeAlignment;
 
 absl::Status refusal(const blobtree::Tape& tape, const MeshRequest& request, bool is_part, std::uint64_t max_bricks,
@@ -37,7 +38,7 @@ absl::Status refusal(const blobtree::Tape& tape, const MeshRequest& request, boo
         absl::StrCat(what, ": the bricks of this part take more than ", limit, "; ask for fewer bricks at once"));
   }
   ISOFIELD_ASSIGN_OR_RETURN(FittingCell fits, fitting_cell(tape, request, max_bricks, cancelled));
-  // An extrapolated size may be one that was refused before.
+  // An extrapolated size may be no larger than the one that is refused now.
   if (!fits.is_exact) fits.size = std::max(fits.size, 1.1 * request.cell_size);
   const char* const about = fits.is_exact ? "" : "about ";
   return absl::ResourceExhaustedError(
@@ -52,7 +53,7 @@ absl::Status refusal(const blobtree::Tape& tape, const MeshRequest& request, boo
 double least_cell_size(const blobtree::Tape& tape, const MeshRequest& request) {
   const Box b = request.bounds.value_or(tape.support);
   const double edge = blobtree::longest_edge(b);
-  // Far from the origin float32 tells points apart no better than at that distance: a cell is 4 such steps at least.
+  // A cell must be at least 4 steps of float32 long, as large as these are at the greatest distance from the origin.
   const double reach = std::max({std::abs(b.min.x), std::abs(b.min.y), std::abs(b.min.z), std::abs(b.max.x),
                                  std::abs(b.max.y), std::abs(b.max.z)});
   return std::max(edge, 2 * reach) / kUsableCells;
@@ -84,7 +85,7 @@ absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshReque
       origin = low;
       return static_cast<std::uint32_t>(std::max(std::ceil((high - low) / cell - 1e-9), 1.0));
     }
-    // One cell of room on either side: the outermost corners are outside.
+    // One cell of room on either side makes sure that the outermost corners are outside.
     origin = std::floor((low / cell - 1) / kAlignment) * kAlignment * cell;
     return static_cast<std::uint32_t>(std::ceil((high - origin) / cell)) + 1;
   };
@@ -114,7 +115,7 @@ absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const M
 }
 
 std::vector<std::uint32_t> brick_neighbours(const std::vector<Brick>& bricks) {
-  // Shifted by one so that -1 stays in range.
+  // Coordinates are shifted by one, so that -1 stays in range.
   const auto key = [](std::uint64_t x, std::uint64_t y, std::uint64_t z) {
     return (x + 1) | (y + 1) << 21 | (z + 1) << 42;
   };

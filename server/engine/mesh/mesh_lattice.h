@@ -1,4 +1,4 @@
-// The lattice of cells that a mesh request looks at, and its bricks.
+// Finds the lattice of cells for a mesh request, and the bricks of it that the surface may cross.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -14,28 +14,31 @@
 
 namespace isofield::engine {
 
-// Cells along an axis: float32 numbers lattice points exactly up to here and beyond.
+// The most cells along an axis; float32 holds the numbers of all lattice points up to here exactly.
 inline constexpr std::uint32_t kMaxCellsPerAxis = 1u << 22;
 
-// Derived bounds begin at a multiple of so many cells, so that a scene that grows a little keeps its lattice; stated
-// bounds start the lattice at their corner.
+// If the bounds are derived from the scene, the lattice begins at a multiple of this many cells, so that a scene that
+// grows a little keeps its lattice. If the request states bounds, the lattice begins at their corner.
 inline constexpr std::uint32_t kLatticeAlignment = 32;
+// Returns the lattice of a request. RESOURCE_EXHAUSTED: request.cell_size is below least_cell_size().
 absl::StatusOr<blobtree::Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request);
 
-// No cell that is smaller is admitted: kMaxCellsPerAxis, and coordinates that float32 tells apart.
+// Returns the least cell size that is admitted, in model units. It follows from kMaxCellsPerAxis, and from the
+// coordinates that float32 can tell apart.
 double least_cell_size(const blobtree::Tape& tape, const MeshRequest& request);
 
-// The bricks of a lattice that the surface may cross, all or `within` some.
+// Returns the bricks of a lattice that the surface may cross, all of them or those in `within`. Errors are those of
+// blobtree::cull().
 absl::StatusOr<blobtree::BrickList> cull_surface(const blobtree::Tape& tape, const MeshRequest& request,
                                                  const blobtree::Lattice& lattice,
                                                  const std::optional<blobtree::BrickSet>& within,
                                                  std::uint64_t max_bricks, const std::function<bool()>& cancelled,
                                                  const base::ForEach& for_each = {});
 
-// The lattice with the bricks that the surface may cross, all or `within` some, found by `for_each`.
-// RESOURCE_EXHAUSTED: more than max_bricks; the message speaks of cell_size, or of resolution where the request stated
-// that, and states the smallest cell size or the largest resolution that fits, or asks for fewer bricks where `within`
-// holds too many.
+// Returns the lattice and the bricks that the surface may cross, all of them or those in `within`. `for_each` runs the
+// search on several threads. RESOURCE_EXHAUSTED: there are more than max_bricks, or more cells along an axis than
+// kMaxCellsPerAxis. The message states the smallest cell size that fits, or the largest resolution if the request
+// states a resolution; if `within` holds too many bricks, it asks for fewer bricks.
 struct SurfaceBricks {
   blobtree::Lattice lattice;
   blobtree::BrickList list;
@@ -45,7 +48,7 @@ absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const M
                                              const std::function<bool()>& cancelled,
                                              const base::ForEach& for_each = {});
 
-// For each brick the places of its neighbours by kNeighbourSteps, or kNoBrick.
+// Returns, for each brick, the places of its kNeighbours neighbours in the order of kNeighbourSteps, or kNoBrick.
 std::vector<std::uint32_t> brick_neighbours(const std::vector<blobtree::Brick>& bricks);
 
 }  // namespace isofield::engine

@@ -18,7 +18,7 @@ namespace {
 
 using gpu::Buffer;
 
-// Crossings of all slabs before any vertex: a vertex takes them from its neighbours' bricks too.
+// Finds the crossings of all slabs before any vertex is placed, since a vertex needs those of neighbouring bricks, too.
 absl::StatusOr<Buffer> find_all_crossings(PartOnDevice& part, const std::vector<MeshSlab>& slabs,
                                           const PartElements& elements) {
   ISOFIELD_ASSIGN_OR_RETURN(
@@ -51,7 +51,7 @@ absl::StatusOr<std::vector<float>> find_fan_normals(PartOnDevice& part, const st
   return found;
 }
 
-// What a mesh has of vertices amid fans.
+// The vertices at the centres of fans, 3 numbers each.
 struct FanCentres {
   std::vector<float> positions, normals;
 };
@@ -61,7 +61,7 @@ void append(std::vector<float>& to, const std::vector<float>& from, std::uint32_
   to.insert(to.end(), from.begin() + 3 * std::size_t{begin}, from.begin() + 3 * std::size_t{end});
 }
 
-// Brick by brick: the vertices of its cells, then those amid its fans.
+// Lists the vertices of the part's own bricks: for each brick the vertices of its cells, then the centres of its fans.
 void list_own_vertices(const PartOnDevice& part, const PartElements& elements, const PartVertices& vertices,
                        const QuadCutter& cutter, const FanCentres& centres, MeshCells& cells) {
   cells.positions.reserve(3 * std::size_t{elements.starts[part.owned][0]} + centres.positions.size());

@@ -1,4 +1,5 @@
-// Meshes a part of the lattice on the device, in passes over its bricks (shaders/mesh_*.comp).
+// mesh_part() makes the mesh of some bricks of the lattice on the device, in passes over the bricks
+// (shaders/mesh_*.comp).
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -13,30 +14,32 @@
 
 namespace isofield::engine {
 
-// The bricks around a part's own that its mesh depends on; each set holds the one before.
+// A part's own bricks, and those around them that its mesh depends on. Each set holds the one before.
 struct PartSets {
   explicit PartSets(const blobtree::BrickSet& own)
       : owned(own), placed(own.grown(1, 0)), crossed(own.grown(1, 1)), sampled(own.grown(2, 1)) {}
 
-  blobtree::BrickSet owned;    // have triangles,
-  blobtree::BrickSet placed;   // the vertices of which lie in these,
-  blobtree::BrickSet crossed;  // and are placed by crossings of edges that belong to these.
-  blobtree::BrickSet sampled;  // Which patches a cell has depends on how those beside it resolve ambiguous faces.
-                               // Bricks that have neither vertices nor triangles may be left out.
+  blobtree::BrickSet owned;    // the part's own bricks, whose triangles are made
+  blobtree::BrickSet placed;   // the bricks in which vertices of these triangles lie
+  blobtree::BrickSet crossed;  // the bricks whose edges have the crossings that place these vertices
+  // The bricks whose corners are sampled. There are more of them, because the patches of a cell depend on how the cells
+  // beside it resolve ambiguous faces. Bricks that have neither vertices nor triangles may be left out.
+  blobtree::BrickSet sampled;
 };
 
 struct PartBricks {
-  blobtree::Lattice lattice;  // of the whole mesh
-  // The part's own bricks in order of place, then those that are in the next larger set alone, and so on.
+  blobtree::Lattice lattice;  // the lattice of the whole mesh
+  // The part's own bricks in order of place; then the bricks that each larger set adds, set by set.
   blobtree::BrickList list;
-  std::uint32_t owned = 0, placed = 0, crossed = 0;  // so many of them are in these sets
+  std::uint32_t owned = 0, placed = 0, crossed = 0;  // how many bricks, from the first on, are in each of these sets
 };
 
 struct PartMesh {
-  MeshCells cells;   // of the part's own bricks
-  MeshCells beside;  // of those that are placed, too: vertices of cells, without normals
+  MeshCells cells;   // the mesh of the part's own bricks
+  MeshCells beside;  // the vertices of the other bricks in `placed`, without triangles, centres of fans and normals
 };
 
+// CANCELLED: the request was cancelled. RESOURCE_EXHAUSTED: a buffer would be larger than the device admits.
 absl::StatusOr<PartMesh> mesh_part(gpu::Device& device, KernelCache& kernels, const ResidentScene& scene,
                                    const MeshRequest& request, PartBricks part, const MeshCallbacks& callbacks);
 

@@ -8,22 +8,23 @@ namespace {
 
 using operators::Opcode;
 
-// Half of the last place of float32, as a part of the number.
+// Half a unit in the last place of float32, as a part of the number.
 constexpr double kUnit = 0x1p-24;
-// Roundings that add up on the way from a lattice point's number to its distance from a placed shape: those of the
-// spacing, the point and the anchor, and of a rotation.
+// The number of roundings that add up between a lattice point's number and its distance from a placed shape: those of
+// the spacing, the point, the anchor and a rotation.
 constexpr double kRoundings = 4;
-// Evaluation rounds a field of size 1 by at most this: primitives and blends keep within it.
+// The largest rounding error of a field of size 1; primitives and blends keep within it.
 constexpr double kValueRounding = 1e-6;
-// The slope of a positive primitive over its range: (1 - R0) |w'(r)| is at most this, at r^2 = 1/5.
+// The largest slope of a positive primitive, times its range: (1 - R0) |w'(r)| is at most this, at r^2 = 1/5.
 constexpr double kSteepest = 0.94;
-// The shift as a part of a cell. Less would do for most scenes; more makes slivers where a crease passes a lattice
-// point.
+// The limits of the shift, as parts of a cell. Less would do for most scenes; more makes slivers where a crease passes
+// a lattice point.
 constexpr double kLeastShift = 0.001, kMostShift = 0.1;
-// The point beside a lattice point is further from it than rounding takes either, and its value tells the side.
+// The shift is this many times as long as rounding moves points or values, so that the value at the point beside tells
+// the side.
 constexpr double kShiftPerLength = 4, kShiftPerValue = 10;
 
-// Up to the next of four steps an octave, so that small edits of a scene change nothing.
+// Rounds up to the next of four steps an octave, so that small edits of a scene change nothing.
 double stepped(double x) {
   return std::exp2(std::ceil(4 * std::log2(x)) / 4);
 }
@@ -33,7 +34,7 @@ double reach_of(const blobtree::Box& box) {
                    std::abs(box.max.y), std::abs(box.max.z)});
 }
 
-// The largest coordinate that the leaf's field is computed from.
+// Returns the largest coordinate that the leaf's field is computed from.
 double reach_of(const blobtree::Leaf& leaf) {
   const blobtree::dvec3& anchor = leaf.domain.anchor;
   return reach_of(leaf.support.is_bounded() ? leaf.support : blobtree::Box{anchor, anchor});
@@ -43,14 +44,14 @@ double slope_of(const blobtree::Leaf& leaf) {
   return leaf.domain.stretch * (leaf.law == operators::Law::kSigned ? leaf.per_distance : kSteepest / leaf.range);
 }
 
-// The least slope of a primitive.
+// Returns the least slope of any primitive; the slope of a primitive is the largest that its field has.
 double least_slope_of(const blobtree::Tape& tape) {
   double slope = 1e30;
   for (const blobtree::Leaf& leaf : tape.leaves) slope = std::min(slope, slope_of(leaf));
   return slope;
 }
 
-// About the most that the field changes over a length.
+// Returns about the largest slope of the scene's field.
 double most_slope_of(const blobtree::Tape& tape) {
   double slope = 1e-30;
   for (const blobtree::Leaf& leaf : tape.leaves) slope = std::max(slope, slope_of(leaf));
@@ -62,7 +63,7 @@ double most_slope_of(const blobtree::Tape& tape) {
   return slope * converted;
 }
 
-// The size of the values that are rounded on the way to the root's.
+// Returns the size of the largest values that are rounded on the way to the root.
 double value_of(const blobtree::Tape& tape, double iso) {
   double value = tape.law == operators::Law::kSigned ? std::abs(iso) : 1;
   for (const blobtree::Operation& o : tape.operations) {

@@ -1,5 +1,5 @@
-// How far rounding takes the samples of a mesh, and how far beside a lattice point the field decides for those that it
-// may have put on the wrong side of the surface (shaders/lib/mesh_constants.glsl has the rule).
+// Bounds the rounding errors of a mesh's samples. Rounding may put a sample on the wrong side of the surface; then the
+// field at a point a little beside the lattice point decides the side (shaders/lib/mesh_constants.glsl has the rule).
 #pragma once
 
 #include "blobtree/cull/lattice.h"
@@ -8,14 +8,16 @@
 namespace isofield::engine {
 
 struct MeshRounding {
-  double shift;   // model units; a thousandth of a cell, more where rounding takes points as far, a tenth at most
-  double length;  // model units: how far the rounding of coordinates takes a point
-  double value;   // how far the rounding of values takes the field
-  double near;    // at most so far is the field from its value on the surface where rounding decides the side
+  // The distance of the point beside; model units. It is a thousandth of a cell, or more if rounding errors are that
+  // large, and at most a tenth of a cell.
+  double shift;
+  double length;  // how far rounding of coordinates moves a point, model units
+  double value;   // how far rounding of values changes the field
+  double near;    // rounding may decide the side of a sample only if it differs from iso by no more than this
 
   bool operator==(const MeshRounding&) const = default;
 };
-// The bounds change in steps, so that small edits of a scene leave them as they are.
+// The results change in steps, so that small edits of a scene leave them as they are.
 MeshRounding mesh_rounding(const blobtree::Tape& tape, const blobtree::Lattice& lattice, double iso);
 
 }  // namespace isofield::engine

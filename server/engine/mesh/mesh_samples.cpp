@@ -5,7 +5,7 @@
 namespace isofield::engine {
 namespace {
 
-// Places in brick_neighbours() of the bricks above.
+// The places of the bricks above in brick_neighbours().
 constexpr std::size_t kX = kNeighboursAbove[0], kY = kNeighboursAbove[1], kZ = kNeighboursAbove[2],
                       kYZ = kNeighboursAbove[3], kXZ = kNeighboursAbove[4], kXY = kNeighboursAbove[5];
 

@@ -14,7 +14,7 @@ namespace {
 
 using gpu::Buffer;
 
-// The octets of listed bricks that hold such samples: place in the list * kOctets + octet.
+// Returns the octets of listed bricks that hold samples near the surface, as place in the list * kOctets + octet.
 absl::StatusOr<std::vector<std::uint32_t>> find_octets(Session session, const Kernels& kernels, MeshConstants constants,
                                                        const Buffer& listed, const Buffer& samples) {
   ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels.get(shaders::kMeshNear));
@@ -40,8 +40,8 @@ void set_rounding(const MeshRounding& rounding, MeshConstants& constants) {
   constants.shift = static_cast<float>(rounding.shift);
   constants.near = static_cast<float>(rounding.near);
   constants.value_room = static_cast<float>(rounding.value);
-  // From a lattice point to the one beside it the distance of a plane along two axes of the lattice changes by a third
-  // of the way or more.
+  // Along the way from a lattice point to the point beside it, the distance from a plane that is parallel to two axes
+  // of the lattice changes by a third of the way or more.
   constants.slope_room = static_cast<float>(3 * rounding.length / rounding.shift);
   constants.just_inside = constants.iso + std::max(std::abs(constants.iso) * 0x1p-23f, 1e-30f);
 }
@@ -58,7 +58,7 @@ absl::Status classify(Session& session, const Kernels& kernels, const MeshConsta
                                      mesh_groups(std::uint64_t{constants.count} * blobtree::kCellsPerBrick / 4));
 }
 
-// Kernels on lavapipe can't leave out what only a few invocations want, so what only few samples need is done by
+// Kernels on lavapipe cannot skip work that only a few invocations need, so the work that only few samples need has
 // dispatches of its own.
 absl::Status settle_samples(gpu::Device& device, const Kernels& kernels, BrickTapes& tapes, MeshConstants constants,
                             const Buffer& bricks, const SampledSlab& slab, std::span<const std::uint32_t> is_near) {

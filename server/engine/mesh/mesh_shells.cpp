@@ -17,9 +17,9 @@ namespace {
 
 using blobtree::dvec3;
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNoVertex = ~0u;
 
-// Takes the corners of triangles as they come, three a triangle.
+// Returns a function that receives corners one by one, and calls take(triangle) after each third one.
 template <class Take>
 auto by_triangle(const Take& take) {
   return [&take, t = Triangle{}](std::size_t corner, std::uint32_t vertex) mutable {
@@ -28,7 +28,7 @@ auto by_triangle(const Take& take) {
   };
 }
 
-// Numbers the sets in the order of their lowest members: of each vertex the number of its shell.
+// Numbers the sets in the order of their lowest members, and returns the number of each vertex's shell.
 std::vector<std::uint32_t> number_shells(DisjointSets& sets, std::uint32_t& shells) {
   std::vector<std::uint32_t> numbers(sets.size());
   shells = 0;
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> number_shells(DisjointSets& sets, std::uint32_t& shel
 
 struct Shell {
   double volume = 0, area = 0;
-  std::uint32_t vertex = kNone;  // one of its vertices
+  std::uint32_t vertex = kNoVertex;  // one of its vertices
 
   bool is_void() const { return volume < 0; }
   bool is_sliver(double cell_size) const { return 2 * std::abs(volume) < kSliverCells * cell_size * area; }
@@ -49,8 +49,8 @@ struct Shell {
 
 // Adds what a triangle encloses to its shell.
 void add(const Triangle& t, std::span<const float> positions, Shell& shell) {
-  // Tetrahedra from a vertex of the shell: far from the origin their volumes would cancel.
-  if (shell.vertex == kNone) shell.vertex = t[0];
+  // The tetrahedra have their apex at a vertex of the shell, because far from the origin their volumes would cancel.
+  if (shell.vertex == kNoVertex) shell.vertex = t[0];
   const dvec3 normal = normal_of(positions, t);
   shell.volume += dot(position_of(positions, t[0]) - position_of(positions, shell.vertex), normal) / 6;
   shell.area += length(normal) / 2;
@@ -70,7 +70,8 @@ ShellCounts count(std::span<const float> positions, std::span<const Shell> shell
   return counts;
 }
 
-// Finds the shells that points lie in, by how often a ray along x leaves each shell more often than it enters it.
+// Finds the shells that points lie in. A point lies in a shell if a ray from it along x leaves the shell more often, or
+// less often, than it enters it.
 class Nesting {
  public:
   Nesting(const Mesh& mesh, std::span<const std::uint32_t> shell_of) : mesh_(mesh), shell_of_(shell_of) {
@@ -81,14 +82,14 @@ class Nesting {
     cell_ = std::max({box_.max.y - box_.min.y, box_.max.z - box_.min.z, 1e-30}) / kCells;
   }
 
-  // A point of each of these shells; others' rays are not looked at.
+  // Adds a point of each wanted shell.
   void add_points(std::span<const char> is_wanted) {
     points_.resize(is_wanted.size());
     std::vector<char> is_placed(is_wanted.size(), 0);
     for (std::size_t t = 0; t < mesh_.triangles.size(); t += 3) {
       const std::uint32_t shell = shell_of_[mesh_.triangles[t]];
       if (!is_wanted[shell] || std::exchange(is_placed[shell], 1)) continue;
-      // No simple fractions: the ray of a scene with symmetries would meet vertices.
+      // Simple fractions would not do, since rays in scenes with symmetries would meet vertices.
       points_[shell] = corner(t) * 0.3127 + corner(t + 1) * 0.2641 + corner(t + 2) * 0.4232;
       grid_[place(index(points_[shell].y, box_.min.y), index(points_[shell].z, box_.min.z))].push_back(shell);
     }
@@ -129,8 +130,8 @@ class Nesting {
     return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(z);
   }
 
-  // Twice the area of a, b and p seen along x, positive where they turn counter-clockwise; the same number, but for its
-  // sign, for b and a, so that two triangles never both have a point on the edge that they share.
+  // Returns twice the area of the triangle a, b, p seen along x, positive if the three turn counter-clockwise. For b,
+  // a, p it returns exactly the negative, so that a ray never meets both of two triangles at the edge that they share.
   static double turn(const dvec3& a, const dvec3& b, const dvec3& p) {
     const bool is_ordered = a.y < b.y || (a.y == b.y && a.z < b.z);
     const dvec3 &u = is_ordered ? a : b, &v = is_ordered ? b : a;
@@ -138,7 +139,7 @@ class Nesting {
     return is_ordered ? area : -area;
   }
 
-  // 1 where the ray from p along x leaves through the triangle, -1 where it enters, else 0.
+  // Returns 1 if the ray from p along x leaves through the triangle, -1 if it enters, else 0.
   static int cross_ray(const dvec3& p, const std::array<dvec3, 3>& c) {
     const double a = turn(c[1], c[2], p), b = turn(c[2], c[0], p), d = turn(c[0], c[1], p);
     const bool leaves = a > 0 && b > 0 && d > 0, enters = a < 0 && b < 0 && d < 0;
@@ -236,7 +237,7 @@ KeptShells keep_shells(const Mesh& mesh, const ShellFilter& filter, double cell_
   }
   kept.shells = count(mesh.positions, kept_shells, cell_size);
   kept.mesh.cells = mesh.cells;
-  std::vector<std::uint32_t> numbers(shell_of.size(), kNone);
+  std::vector<std::uint32_t> numbers(shell_of.size(), kNoVertex);
   std::uint32_t vertices = 0;
   for (std::size_t v = 0; v < shell_of.size(); ++v) {
     if (!stays[shell_of[v]]) continue;
@@ -248,7 +249,7 @@ KeptShells keep_shells(const Mesh& mesh, const ShellFilter& filter, double cell_
     copy(mesh.normals, kept.mesh.normals);
   }
   for (const std::uint32_t v : mesh.triangles) {
-    if (numbers[v] != kNone) kept.mesh.triangles.push_back(numbers[v]);
+    if (numbers[v] != kNoVertex) kept.mesh.triangles.push_back(numbers[v]);
   }
   return kept;
 }

@@ -8,13 +8,14 @@
 namespace isofield::engine {
 namespace {
 
-// Height by longest edge. Vertices lie up to 4e-3 of a cell off the surface, and so this turns by 4 degrees at most.
+// A triangle is thin if its height is less than this part of its longest edge. Vertices lie up to 4e-3 of a cell off
+// the surface, which turns thicker triangles by 4 degrees at most.
 constexpr double kThin = 0.06;
 
 }  // namespace
 
 std::vector<std::uint32_t> find_twins(std::span<const std::uint32_t> corners, std::size_t vertices) {
-  // Sides by the lower of their vertices.
+  // The half-edges are listed by the lower of their two vertices.
   std::vector<std::uint32_t> starts(vertices + 1), sides(corners.size()), twins(corners.size(), kNoTwin);
   const auto low = [&](std::uint32_t c) { return std::min(corners[c], corners[next_corner(c)]); };
   const auto high = [&](std::uint32_t c) { return std::max(corners[c], corners[next_corner(c)]); };
@@ -36,7 +37,7 @@ std::vector<blobtree::dvec3> face_directions(std::span<const float> positions, s
   using blobtree::dvec3;
   const std::size_t count = corners.size() / 3;
   std::vector<dvec3> own(count);
-  std::vector<std::uint32_t> beside(count, kNoTwin);  // of thin ones
+  std::vector<std::uint32_t> beside(count, kNoTwin);  // for thin triangles: the triangle at the longest edge
   for (std::uint32_t t = 0; t < count; ++t) {
     const dvec3 n = normal_of(positions, {corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]});
     double longest = 0;

@@ -1,4 +1,4 @@
-// Which sides of triangles lie against each other, and where triangles face: what tells creases.
+// Finds the twins of half-edges and the directions in which triangles face, from which creases are found.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ inline constexpr double kCreaseCosine = 0.9063077870366499;
 
 inline constexpr std::uint32_t kNoTwin = std::numeric_limits<std::uint32_t>::max();
 
-// Sides are named by the corner at which they begin, and `corners` has the vertex of each corner, below `vertices`.
-// Returns for each side the one that lies against it in the triangle beside; kNoTwin where there is none.
+// Returns the twin half-edge of each half-edge, which lies in the neighbouring triangle, or kNoTwin. Half-edges are
+// named by the corner at which they begin. `corners` has the vertex number of each corner, less than `vertices`.
 std::vector<std::uint32_t> find_twins(std::span<const std::uint32_t> corners, std::size_t vertices);
 
-// Returns the unit normal of each triangle. Thin triangles, whose own direction says nothing, take that of the triangle
-// at their longest edge; (0, 0, 0) where that has no area either.
+// Returns the unit normal of each triangle. The direction of a thin triangle is unreliable, and so it takes that of the
+// triangle at its longest edge; (0, 0, 0) if that has no area either.
 std::vector<blobtree::dvec3> face_directions(std::span<const float> positions, std::span<const std::uint32_t> corners,
                                              std::span<const std::uint32_t> twins);
 

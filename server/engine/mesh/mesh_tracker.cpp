@@ -35,14 +35,14 @@ bool same_lattice(const Lattice& a, const Lattice& b) {
   return !(a.origin != b.origin) && !(a.spacing != b.spacing);
 }
 
-// Sets near each other become one: their parts of the mesh would overlap.
+// Joins sets that are near each other, because their parts of the mesh would overlap.
 void join_near(std::vector<BrickSet>& sets) {
   for (std::size_t i = 0; i < sets.size(); ++i) {
     for (std::size_t j = i + 1; j < sets.size(); ++j) {
       if (!blobtree::meet(sets[i].box().grown(2, 2), sets[j].box())) continue;
       sets[i] = sets[i].joined(sets[j]);
       sets.erase(sets.begin() + j);
-      j = i;  // the larger one may be near those before
+      j = i;  // the larger set may be near sets that were not near before
     }
   }
 }
@@ -64,7 +64,7 @@ std::optional<std::vector<const Leaf*>> changed_leaves(const ResidentScene& befo
   std::vector<const Leaf*> leaves;
   for (std::size_t i = 0; i < a.leaves.size(); ++i) {
     if (same_record(a.leaves[i], p.leaves, q.leaves)) continue;
-    // Signed fields reach everywhere.
+    // A signed field has no support, so a change reaches everywhere.
     if (a.leaves[i].law != operators::Law::kPositive) return std::nullopt;
     leaves.push_back(&a.leaves[i]);
     leaves.push_back(&b.leaves[i]);
@@ -171,8 +171,8 @@ absl::StatusOr<MeshTracker::Update> MeshTracker::update_part(const ResidentScene
     return bricks_.contains({x, y, z}) ||
            std::any_of(changed.begin(), changed.end(), [&](const BrickSet& set) { return set.contains(x, y, z); });
   };
-  // Vertices of bricks beside those that change do so only where a face that both share is ambiguous; then one brick
-  // more is looked at.
+  // Vertices in neighbours of changed bricks change only if a face between them is ambiguous. If any do, the part is
+  // made again with the neighbours in it.
   for (std::uint32_t reach = 0;; ++reach) {
     const BrickSet moved = changed[part].grown(reach, reach);
     PartSets sets(moved.grown(0, 1));  // triangles belong to the uppermost brick that they have a vertex in

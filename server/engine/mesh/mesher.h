@@ -1,6 +1,7 @@
-// Closed triangle meshes of a scene's surface, made on the device: dual contouring, with one vertex a patch of a cell,
-// on the bricks that the surface may cross, so that memory and time follow the surface and not the box. Creases come
-// out sharp where the crease turns by 25 degrees or more and crosses the cell that its vertex lies in.
+// Mesher makes closed triangle meshes of a scene's surface on the device, by dual contouring with one vertex for each
+// patch of a cell. It works only on the bricks that the surface may cross, so that memory and time follow the surface
+// and not the box. A crease comes out sharp if it turns by 25 degrees or more and crosses the cell that its vertex lies
+// in.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -22,30 +23,31 @@
 
 namespace isofield::engine {
 
-// Thread-safe.
+// Thread-safe. Owns a cache of meshes. CANCELLED: callbacks.cancelled says so.
 class Mesher {
  public:
   Mesher(gpu::Device& device, KernelCache& kernels, base::Workers& workers)
       : device_(device), kernels_(kernels), workers_(workers) {}
 
-  // Deterministic. RESOURCE_EXHAUSTED: as surface_bricks().
-  // `shells`: where it is not null, is given those of the whole mesh; nothing where request.part asks for a part.
+  // Returns the mesh of a request; the same request gives the same bytes. RESOURCE_EXHAUSTED: as for surface_bricks(),
+  // or a buffer would be too large. If `shells` is not null, it receives the counts of the whole mesh, or nothing if
+  // the request asks for a part.
   absl::StatusOr<Mesh> mesh(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
                             std::optional<ShellCounts>* shells = nullptr);
 
-  // The same by bricks, handed over in order of place as they are made; a failure of `deliver` ends the work. A brick
-  // holds the same bytes whatever part it is asked with.
+  // The same by bricks, which are handed over in order of place as they are made. A failure of `deliver` ends the work.
+  // A brick has the same bytes whatever part it is made with.
   using Deliver = std::function<absl::Status(const MeshCells&)>;
   absl::Status cells(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
                      const Deliver& deliver, std::optional<ShellCounts>* shells = nullptr);
 
-  // automatic_cell_size(), on all threads.
+  // Calls automatic_cell_size() of cell_size.h, on all threads.
   absl::StatusOr<double> automatic_cell_size(const ResidentScene& scene, const MeshRequest& request,
                                              const std::function<bool()>& cancelled) const;
-  // Beyond so many cells a request is refused whatever it admits: one binding holds a word for each.
+  // Returns the most cells of any request, whatever request.max_cells says: one binding holds a word for each cell.
   std::uint64_t max_cells() const;
 
-  // The bricks that `sets` states, whatever request.part says.
+  // Makes the bricks that `sets` states, whatever request.part says.
   absl::StatusOr<PartMesh> part(const ResidentScene& scene, const MeshRequest& request, const PartSets& sets,
                                 const MeshCallbacks& callbacks);
 

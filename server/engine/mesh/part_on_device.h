@@ -1,5 +1,5 @@
-// A part of a mesh on its way through the mesher's passes: what the host knows of its bricks, and what of this lies on
-// the device.
+// PartOnDevice is a part of a mesh on its way through the mesher's passes. It holds what the passes share: the part's
+// bricks on the host and on the device, the tapes and the constants.
 #pragma once
 
 #include <absl/status/status.h>
@@ -18,19 +18,19 @@
 
 namespace isofield::engine {
 
-// One thread. What it is given must outlive it.
+// Belongs to one thread. What is given by reference must outlive it.
 struct PartOnDevice {
   PartOnDevice(gpu::Device& device, KernelCache& kernels, const ResidentScene& scene, const MeshRequest& request,
                PartBricks part, const MeshCallbacks& callbacks);
   PartOnDevice(const PartOnDevice&) = delete;
   PartOnDevice& operator=(const PartOnDevice&) = delete;
 
-  // Before the first pass.
+  // Uploads the buffers below. Call it once, before the first pass.
   absl::Status upload();
 
   std::uint32_t total() const { return static_cast<std::uint32_t>(list.bricks.size()); }
   bool is(std::uint32_t brick, BrickKind kind) const { return (kinds[brick] & kind) != 0; }
-  // Tells the progress. CANCELLED: the request was.
+  // Reports the fraction that is done. CANCELLED: the request was cancelled.
   absl::Status check(double fraction) const;
 
   gpu::Device& device;
@@ -40,11 +40,11 @@ struct PartOnDevice {
   const MeshCallbacks& callbacks;
   const MeshConstants constants;
 
-  // Its code has gone to `tapes`, in whose windows the bricks' tapes begin.
+  // The bricks. Their code has moved to `tapes`, and their tapes begin at places in its windows.
   blobtree::BrickList list;
-  const std::uint32_t owned, placed, crossed;   // as of PartBricks
-  const std::vector<std::uint32_t> neighbours;  // as of brick_neighbours()
-  std::vector<std::uint32_t> kinds;             // of bricks: BrickKind
+  const std::uint32_t owned, placed, crossed;   // as in PartBricks
+  const std::vector<std::uint32_t> neighbours;  // as brick_neighbours() returns them
+  std::vector<std::uint32_t> kinds;             // BrickKind bits of each brick
   BrickTapes tapes;
   gpu::Buffer bricks, neighbours_buffer, surface_cases;
 };

@@ -15,7 +15,7 @@ namespace {
 
 using gpu::Buffer;
 
-// How many bricks from `first` on make a slab; at least one.
+// Returns how many bricks from `first` on make a slab; at least one.
 std::uint32_t slab_from(const PartOnDevice& part, std::uint32_t first) {
   const gpu::DeviceProfile& most = part.device.profile();
   std::uint64_t instructions = 0;
@@ -27,7 +27,7 @@ std::uint32_t slab_from(const PartOnDevice& part, std::uint32_t first) {
   return end - first;
 }
 
-// Records the evaluation of the octets that no other brick of the slab has.
+// Records the evaluation of the octets that are not copied from another brick of the slab.
 absl::Status evaluate_octets(Session& session, PartOnDevice& part, const MeshSlab& slab, const SlabOctets& octets) {
   BrickTapes::Jobs jobs;
   for (std::uint32_t n = 0; n < slab.count; ++n) {
@@ -43,7 +43,7 @@ absl::Status evaluate_octets(Session& session, PartOnDevice& part, const MeshSla
       {{binding::lattice::kBricks, &part.bricks}, {binding::mesh_sample::kSamples, &slab.samples}});
 }
 
-// Records the copies of the others.
+// Records the copies of the other octets.
 absl::Status take_over_octets(Session& session, const PartOnDevice& part, const MeshSlab& slab,
                               const SlabOctets& octets) {
   if (octets.taken_over.empty()) return absl::OkStatus();

@@ -17,18 +17,18 @@ int edge_between(int a, int b) {
   return 4 * axis + u + 2 * v;
 }
 
-// The corners of a face in the order around it.
+// Returns the corners of a face in the order around it.
 std::array<int, 4> face_corners(int face) {
   const int axis = face / 2, base = (face & 1) << axis;
   const int u = 1 << next(axis), v = 1 << next(next(axis));
   return {base, base | u, base | u | v, base | v};
 }
 
-// The segments in which the surface meets a face, as pairs of edges.
+// Returns the segments in which the surface meets a face, each by the two edges at its ends.
 std::vector<std::pair<int, int>> face_segments(int inside, int face, bool joins_inside) {
   const std::array<int, 4> corner = face_corners(face);
   std::array<bool, 4> in;
-  std::array<int, 4> edge;  // from corner i to corner i + 1
+  std::array<int, 4> edge;  // edge[i] leads from corner i to corner i + 1
   std::vector<int> crossed;
   for (int i = 0; i < 4; ++i) in[i] = inside >> corner[i] & 1;
   for (int i = 0; i < 4; ++i) {
@@ -37,7 +37,8 @@ std::vector<std::pair<int, int>> face_segments(int inside, int face, bool joins_
   }
   if (crossed.size() == 2) return {{crossed[0], crossed[1]}};
   if (crossed.size() < 4) return {};
-  // Ambiguous: each segment cuts off a corner, the inside ones or, when they join, the outside ones.
+  // The face is ambiguous. Each segment cuts off one corner: an inside one or, if the inside ones are joined, an
+  // outside one.
   std::vector<std::pair<int, int>> segments;
   for (int i = 0; i < 4; ++i) {
     if (in[i] != joins_inside) segments.emplace_back(edge[(i + 3) % 4], edge[i]);

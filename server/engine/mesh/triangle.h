@@ -1,4 +1,4 @@
-// Triangles of a mesh, their corners and places.
+// Functions on the triangles of a mesh: their corners, positions and normals.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace isofield::engine {
 
 using Triangle = std::array<std::uint32_t, 3>;  // vertex numbers, counter-clockwise from outside
 
-// Corners are numbered three a triangle: the one that follows in its triangle.
+// Corners are numbered three a triangle. Returns the corner that follows in the same triangle.
 constexpr std::uint32_t next_corner(std::uint32_t corner) {
   return corner % 3 == 2 ? corner - 2 : corner + 1;
 }
@@ -21,7 +21,7 @@ inline blobtree::dvec3 position_of(std::span<const float> positions, std::uint32
   return {p[0], p[1], p[2]};
 }
 
-// As long as twice the triangle's area.
+// Returns a normal of the triangle, with twice the triangle's area as its length.
 inline blobtree::dvec3 normal_of(std::span<const float> positions, const Triangle& t) {
   const blobtree::dvec3 a = position_of(positions, t[0]);
   return cross(position_of(positions, t[1]) - a, position_of(positions, t[2]) - a);

@@ -11,7 +11,7 @@ namespace {
 
 using gpu::Buffer;
 
-// Records the places of the vertices of those of the slab's bricks of which kMayCrease is as told.
+// Records a dispatch that places the vertices of the slab's bricks, only of those whose kMayCrease bit is `may_crease`.
 absl::Status place_slab(Session& session, const PartOnDevice& part, const MeshSlab& slab, const PartElements& elements,
                         const Buffer& crossings, const PartVertices& vertices, bool may_crease) {
   std::vector<std::uint32_t> bricks;

@@ -53,7 +53,7 @@ void EvaluationQueue::submit(PointBatch batch, Done done) {
 }
 
 absl::Status EvaluationQueue::evaluate(const PointBatch& batch) {
-  // Shared, so that it outlives the call of `done` that ends the wait.
+  // The promise is shared, so that it outlives the call of `done` that ends the wait.
   const auto outcome = std::make_shared<std::promise<absl::Status>>();
   std::future<absl::Status> future = outcome->get_future();
   submit(batch, [outcome](const absl::Status& status) { outcome->set_value(status); });
@@ -87,8 +87,9 @@ absl::Status EvaluationQueue::evaluate_large(const PointBatch& batch) {
   return absl::IsCancelled(status) && is_late() ? deadline_exceeded() : status;
 }
 
-// What is to go next is decided when the device is free. The lock is given up in between, and the answers are the
-// caller's to give: the next submission need not wait for them.
+// Runs one submission. It decides what goes next only when the device is free, and unlocks while it waits for that and
+// while it runs. The caller must call `done` of the batches that it returns, so that the next submission need not wait
+// for these calls.
 EvaluationQueue::Batches EvaluationQueue::run_next() {
   is_led_ = true;
   wait_for_more();
@@ -112,7 +113,7 @@ EvaluationQueue::Batches EvaluationQueue::run_next() {
     const auto start = std::chrono::steady_clock::now();
     RequestTimes times;
     const absl::Status status =
-        base::guarded([&] { return run_joined(running, std::move(turn), times); });  // or nobody would be answered
+        base::guarded([&] { return run_joined(running, std::move(turn), times); });  // else none would be answered
     for (Waiting* w : running) {
       w->status = status;
       if (!w->batch.times) continue;
@@ -142,7 +143,7 @@ void EvaluationQueue::wait_for_more() {
   }
 }
 
-// The first one, and those that can go with it in the order of their urgency.
+// Takes the batch that goes first out of the queue, and those that can go with it, in the order of their urgency.
 EvaluationQueue::Batches EvaluationQueue::take_next() {
   std::vector<std::unique_ptr<Waiting>*> order;
   for (auto& w : waiting_) order.push_back(&w);
@@ -172,7 +173,7 @@ absl::Status EvaluationQueue::run_joined(const std::vector<Waiting*>& joined, gp
   std::vector<float> xyz;
   for (const Waiting* w : joined) xyz.insert(xyz.end(), w->batch.xyz.begin(), w->batch.xyz.end());
   std::vector<float> out(first.layout.numbers(xyz.size() / 3));
-  // Goes on for as long as one of them wants it.
+  // The submission goes on as long as one of its batches is not cancelled.
   const auto cancelled = [&] {
     return std::all_of(joined.begin(), joined.end(),
                        [](const Waiting* w) { return w->batch.cancelled && w->batch.cancelled(); });

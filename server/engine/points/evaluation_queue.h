@@ -1,4 +1,5 @@
-// A queue in which requests for values at points wait for the device, and small ones are joined.
+// EvaluationQueue holds requests for values at points until the device is free, and joins small ones into one
+// submission.
 #pragma once
 
 #include <absl/status/status.h>
@@ -19,33 +20,34 @@
 namespace isofield::engine {
 
 struct QueueOptions {
-  // How long a submission that could start is held back so that others can join it.
+  // The time for which a submission that could start is held back so that other batches can join it.
   std::chrono::microseconds delay{0};
 };
 
-// One request.
+// The points of one request. The memory of `xyz` and `out` must stay valid until the batch is done.
 struct PointBatch {
   SceneLease scene;
-  std::span<const float> xyz;  // as of FieldEvaluator::evaluate
+  std::span<const float> xyz;  // 3 numbers a point, as FieldEvaluator::evaluate takes them
   ResultLayout layout = ResultLayout::kValue;
-  std::span<float> out;  // rows of the layout
-  int priority = 0;      // the higher first
+  std::span<float> out;  // a row of the layout for each point
+  int priority = 0;      // higher numbers go first
   gpu::Deadline deadline = gpu::Deadline::max();
   FieldEvaluator::Cancelled cancelled;
   // If it is not null, it receives how long the batch waited and ran, before the batch is done.
   RequestTimes* times = nullptr;
 };
 
-// Small batches that wait when the device becomes free, of one scene and one layout, go to it together, the most
-// urgent first: higher priority, then earlier deadline, then first come; the last of every `patience` submissions is
-// that of the batch that has waited longest. A large batch goes alone, and small ones pass between its slabs.
+// When the device becomes free, it gets the most urgent batch: that of the highest priority, then of the earliest
+// deadline, then the first that came. Small batches of the same scene and layout that wait go with it in one
+// submission. The last of every `patience` submissions begins with the batch that has waited longest. A large batch
+// goes alone, and small ones may pass between its slabs.
 //
-// A caller who finds nobody at it runs the next submission, with what is in it, so that a lone batch costs no change of
-// threads; what waits then is the queue's own thread's, and the next caller's. Thread-safe; nothing may wait when it is
-// destroyed.
+// A caller who finds that no thread is preparing a submission runs the next one itself, with all batches that belong to
+// it, so that a lone batch costs no change of threads. The batches that still wait after that are left to the queue's
+// own thread or to the next caller. Thread-safe; no batch may be waiting when the queue is destroyed.
 class EvaluationQueue {
  public:
-  // Runs a submission; FieldEvaluator::evaluate, where it is no test's.
+  // Runs a submission. It is FieldEvaluator::evaluate, except in tests.
   using Run =
       std::function<absl::Status(const ResidentScene&, std::span<const float> xyz, ResultLayout, std::span<float> out,
                                  const FieldEvaluator::Cancelled&, FieldEvaluator::Submission)>;
@@ -61,17 +63,18 @@ class EvaluationQueue {
         dispatcher_([this] { dispatch(); }) {}
   ~EvaluationQueue();
 
-  // Called once with the outcome, when `out` is written: on the caller's thread, or on that of whoever ran the
-  // submission.
+  // The queue calls it once with the outcome, after `out` is written, on the caller's thread or on the thread that ran
+  // the submission.
   using Done = std::function<void(const absl::Status&)>;
 
-  // DEADLINE_EXCEEDED, CANCELLED: before it was run, or between slabs. Others: those of the evaluation, which all in a
-  // submission share. A large batch is run before this returns.
+  // Queues a batch, or runs it at once. A large batch is done when this returns. DEADLINE_EXCEEDED, CANCELLED: the
+  // deadline passed, or the request was cancelled, before the batch was run or between its slabs. Other errors are
+  // those of the evaluation; all batches of a submission share them.
   void submit(PointBatch batch, Done done);
-  // The same, and waits for the outcome.
+  // The same, but it waits for the outcome and returns it.
   absl::Status evaluate(const PointBatch& batch);
 
-  // Small batches that wait.
+  // Returns the number of small batches that wait.
   std::size_t waiting() const;
 
  private:
@@ -92,7 +95,7 @@ class EvaluationQueue {
   void wait_for_more() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   Batches take_next() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status run_joined(const std::vector<Waiting*>& joined, gpu::Turns::Turn turn, RequestTimes& times);
-  // run_, timed.
+  // Calls run_, and adds the times that it takes to `times`.
   absl::Status run(const PointBatch& first, std::span<const float> xyz, std::span<float> out,
                    const FieldEvaluator::Cancelled& cancelled, gpu::Turns::Turn turn, RequestTimes& times);
 
@@ -106,10 +109,10 @@ class EvaluationQueue {
   Batches waiting_ ABSL_GUARDED_BY(mutex_);  // by arrival
   std::uint64_t waiting_points_ ABSL_GUARDED_BY(mutex_) = 0;
   base::Condition more_came_, left_over_;
-  bool is_led_ ABSL_GUARDED_BY(mutex_) = false;  // a thread is at the next submission
+  bool is_led_ ABSL_GUARDED_BY(mutex_) = false;  // a thread prepares or runs a submission
   bool is_over_ ABSL_GUARDED_BY(mutex_) = false;
   std::uint64_t picks_ ABSL_GUARDED_BY(mutex_) = 0;
-  std::thread dispatcher_;  // last: it uses the others
+  std::thread dispatcher_;  // the last member, since it uses the others
 };
 
 }  // namespace isofield::engine

@@ -18,22 +18,22 @@ namespace {
 
 using blobtree::Brick;
 
-// What a subgroup of shaders/sorted_points.comp takes, and the invocations of a workgroup there, in
-// shaders/points.comp, and in shaders/tape_points.comp.
+// A job of a subgroup of shaders/sorted_points.comp: beginning and length of the tape, first and last point.
 using PointJob = std::array<std::uint32_t, 4>;
+// The invocations of a workgroup of shaders/sorted_points.comp, points.comp and tape_points.comp.
 constexpr std::uint32_t kPointsPerGroup = 64;
-// Points of one dispatch that takes them in their order.
+// The most points of a dispatch that takes points in the order of the batch.
 constexpr std::size_t kMostPoints = std::size_t{gpu::kMaxGroups} * kPointsPerGroup;
 
-// Jobs of one dispatch.
+// The jobs of one dispatch.
 struct JobRun {
   std::size_t first;
   std::uint32_t count, window;
-  bool waits;  // for the work so far
+  bool waits;  // true: the dispatch is recorded only after all earlier work is done
 };
 
-// Deals each dispatch's jobs out. `windows`: of each job's tape. After every DeviceProfile::submission_work the work
-// so far is waited for.
+// Cuts the list of jobs into dispatches, and deals out the jobs of each (engine/dealing.h). `windows` has the window of
+// each job's tape; the jobs of a dispatch share one. After every DeviceProfile::submission_work the next run waits.
 template <class Job, class Work>
 std::vector<JobRun> runs_of(std::vector<Job>& jobs, std::span<const std::uint32_t> windows, const gpu::Device& device,
                             const Work& work_of) {
@@ -69,7 +69,7 @@ const shaders::Spirv& points_shader(ResultLayout layout, bool is_sorted) {
   return is_sorted ? shaders::kSortedPointsValue : shaders::kPointsValue;
 }
 
-// Of shaders/grid.comp.
+// The push constants of shaders/grid.comp.
 struct GridConstants {
   float origin[4];
   float spacing[4];
@@ -101,7 +101,7 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
   const gpu::SharedPipeline written = written_ ? written_->find(scene, with_gradient, count) : nullptr;
   if (written) return evaluate_written(written, scene, xyz, layout, out, cancelled, std::move(submission));
   if (!is_sorted(scene)) return evaluate_unsorted(scene, xyz, layout, out, cancelled, std::move(submission));
-  const bool may_make = !submission.turn;  // which takes a turn of its own
+  const bool may_make = !submission.turn;  // making an index takes a turn of its own
   ISOFIELD_ASSIGN_OR_RETURN(const auto index, indices_.find(device_, scene, count, may_make, cancelled));
   if (index) return evaluate_indexed(*index, scene, xyz, layout, out, cancelled, std::move(submission));
   blobtree::PointBins binned = blobtree::bin_points(scene.tape(), xyz);
@@ -140,7 +140,8 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
       bins.push_back({begin, points, tape.begin, tape.count, tape.window});
       work += std::uint64_t{(points + points_per_job - 1) / points_per_job * points_per_job} * tape.count;
     }
-    // What is too much for one submission is submitted while it is recorded, and takes the turn that `running` holds.
+    // If the slab is too much for one submission, record() submits parts of it, which need the turn that `running`
+    // holds.
     if (work >= profile().submission_work) ISOFIELD_RETURN_IF_ERROR(finish(running));
     ISOFIELD_ASSIGN_OR_RETURN(Slab slab, begin_slab(submission));
     slab.sorted = std::move(sorted.points);
@@ -189,7 +190,7 @@ absl::Status FieldEvaluator::record(Slab& slab, const ResidentScene& scene, cons
   }
   jobs.reserve(count / points_per_job + bins.size());
   windows.reserve(jobs.capacity());
-  std::uint32_t window = with_tape->window;  // where the field is 0, any will do
+  std::uint32_t window = with_tape->window;  // points where the field is 0 may go with any window
   for (const Bin& b : bins) {
     if (b.tape_count > 0) window = b.window;
     const std::uint32_t last = b.first + b.count - 1;
@@ -255,7 +256,7 @@ absl::Status FieldEvaluator::evaluate_written(const gpu::SharedPipeline& kernel,
   return evaluate_in_order(
       most, xyz, layout, out, cancelled, std::move(submission),
       [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last, std::uint32_t groups) {
-        // Nothing is read where a tape would be.
+        // The kernel reads no tape, so any buffer will do in the tape's place.
         return session.commands().dispatch(kernel, scene.bindings(*own.front().buffer, own), last, groups);
       });
 }
@@ -285,7 +286,8 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
                                              const Cancelled& cancelled) {
   const std::size_t layer = layout.numbers(std::size_t{lattice.cells[0]} * lattice.cells[1]);
   const auto layers = static_cast<std::uint32_t>(out.size() / layer);
-  // Culled as a lattice of its own; the device numbers points in the whole one, so that they are the same bits.
+  // The layers are culled as a lattice of their own. The device numbers points in the whole lattice, so that their
+  // coordinates have the same bits as those of the whole.
   blobtree::CullRequest part{.lattice = lattice, .keep = blobtree::Keep::kSupport, .cancelled = cancelled};
   part.lattice.origin.z += lattice.spacing.z * first_layer;
   part.lattice.cells[2] = layers;

@@ -1,4 +1,4 @@
-// Values and gradients of resident scenes, at points and on lattices.
+// FieldEvaluator computes values and gradients of resident scenes on the device, at points and on lattices.
 #pragma once
 
 #include <absl/status/status.h>
@@ -21,7 +21,8 @@
 
 namespace isofield::engine {
 
-// Thread-safe.
+// Thread-safe. Owns the indices of the scenes that are asked often; all that it is given must outlive it. Errors are
+// those of the device, and CANCELLED.
 class FieldEvaluator {
  public:
   // `written` is null where all tapes are interpreted.
@@ -30,29 +31,29 @@ class FieldEvaluator {
 
   const gpu::DeviceProfile& profile() const { return device_.profile(); }
 
-  // Asked between submissions; true ends the work with CANCELLED.
+  // The evaluator calls it between submissions; the answer true ends the work with CANCELLED.
   using Cancelled = std::function<bool()>;
 
   struct Submission {
     gpu::Urgency urgency;
-    gpu::Turns::Turn turn;  // one that is held already
+    gpu::Turns::Turn turn;  // a turn that the caller holds already, or none
   };
 
-  // Compiles the kernels that the functions below would compile on first use.
+  // Compiles the interpreting kernel that evaluate() would otherwise compile on first use.
   absl::Status prepare(const ResidentScene& scene, ResultLayout layout);
 
-  // xyz: 3 finite numbers a point; out: a row of the layout a point. Where others write to xyz meanwhile, any numbers
-  // come out for these points, and nothing else goes wrong.
+  // Evaluates the field at points. `xyz` has 3 finite numbers a point, and `out` a row of the layout a point. If
+  // somebody writes to `xyz` meanwhile, the results of these points are arbitrary, and nothing else goes wrong.
   absl::Status evaluate(const ResidentScene& scene, std::span<const float> xyz, ResultLayout layout,
                         std::span<float> out, const Cancelled& cancelled = {}, Submission submission = {});
 
-  // The lattice's points with k from first_layer (a multiple of kBrickCells) to the end of `out`, which holds whole
-  // layers, x fastest. lattice.cells counts the points.
+  // Evaluates the layers of lattice points from k = first_layer on, a multiple of kBrickCells; `out` holds as many
+  // whole layers as are wanted, x fastest. Here lattice.cells counts the points along each axis.
   absl::Status evaluate_layers(const ResidentScene& scene, const blobtree::Lattice& lattice, std::uint32_t first_layer,
                                ResultLayout layout, std::span<float> out, const Cancelled& cancelled = {});
 
  private:
-  // The whole tape's at all points, or pruned ones' at sorted points.
+  // True: points are sorted, and pruned tapes run at them. False: the whole tape runs at all points.
   bool is_sorted(const ResidentScene& scene) const;
 
   absl::Status evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene,
@@ -62,8 +63,8 @@ class FieldEvaluator {
   absl::Status evaluate_unsorted(const ResidentScene& scene, std::span<const float> xyz, ResultLayout layout,
                                  std::span<float> out, const Cancelled& cancelled, Submission submission);
 
-  // Evaluates points in the batch's order, at most `most` in a submission. Calls dispatch(session, the bindings of
-  // points and results, the last point, workgroups) for each submission.
+  // Evaluates points in the order of the batch, at most `most` in a submission. For each submission it calls
+  // dispatch(session, bindings of points and results, number of the last point, workgroups).
   template <class Dispatch>
   absl::Status evaluate_in_order(std::size_t most, std::span<const float> xyz, ResultLayout layout,
                                  std::span<float> out, const Cancelled& cancelled, Submission submission,
@@ -73,17 +74,18 @@ class FieldEvaluator {
                                 ResultLayout layout, std::span<float> out, const Cancelled& cancelled,
                                 Submission submission);
 
-  // Points of one tape, consecutive in Slab::sorted; the window as of TapeWindows::add. No tape: the field is 0.
+  // The points of one tape, which are consecutive in Slab::sorted. `window` is what TapeWindows::add returned. If
+  // tape_count is 0, the field is 0 there.
   struct Bin {
     std::uint32_t first, count, tape_begin, tape_count, window;
   };
-  // Points of a batch whose work is one submission, while it needs them.
+  // The points of a batch whose work is one submission, and the session that does it.
   struct Slab {
-    std::unique_ptr<blobtree::PlacedPoint[]> sorted;  // null: the points are as the batch has them
-    Session session;                                  // the last member: it waits for the device, which uses the other
+    std::unique_ptr<blobtree::PlacedPoint[]> sorted;  // null: the points have the order of the batch
+    Session session;  // the last member, since it waits for the device, which reads `sorted`
   };
   absl::StatusOr<Slab> begin_slab(Submission& submission);
-  // Submits when `running`, if any, is done, and takes its place.
+  // Waits until `running`, if there is one, is done; then submits `next`, which becomes the running one.
   static absl::Status submit_after(std::optional<Slab>& running, Slab next);
   static absl::Status finish(std::optional<Slab>& running);
   std::uint32_t points_per_job() const { return static_cast<std::uint32_t>(profile().points_per_job); }

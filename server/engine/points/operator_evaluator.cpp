@@ -14,9 +14,9 @@ namespace isofield::engine {
 namespace {
 
 constexpr std::size_t kLocalSize = 64;
-constexpr std::size_t kMostRows = std::size_t{gpu::kMaxGroups} * kLocalSize;  // of one dispatch
+constexpr std::size_t kMostRows = std::size_t{gpu::kMaxGroups} * kLocalSize;  // rows of one dispatch
 
-// Mirrors shaders/operator_eval.comp.
+// The push constants of shaders/operator_eval.comp, in its order.
 struct Constants {
   std::uint32_t count = 0;
   std::uint32_t operands = 0;
@@ -45,7 +45,7 @@ absl::Status run(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer in,
                               session.upload(arguments.subspan(first * constants.columns, count * constants.columns)));
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer out, session.scratch(count * result_columns * sizeof(float)));
-    // The kernel runs no tape: any buffer will do in its place.
+    // The kernel runs no tape, so any buffer will do in the tape's place.
     ISOFIELD_RETURN_IF_ERROR(
         session.commands().dispatch(kernel, resident->bindings(in, {{kArguments, &in}, {kResults, &out}}), constants,
                                     static_cast<std::uint32_t>((count + kLocalSize - 1) / kLocalSize)));
@@ -55,8 +55,8 @@ absl::Status run(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes
   return absl::OkStatus();
 }
 
-// Rows of arguments as the kernel takes them: with tan(theta) in place of theta, or, of an operator that follows an
-// angle, its cosine and sine in place of the angle.
+// Returns the rows of arguments as the kernel takes them. They have tan(theta) in place of theta or, for an operator
+// that follows an angle, the angle's cosine and sine in place of the angle.
 std::vector<float> device_rows(std::span<const float> arguments, std::size_t operands, bool by_angle) {
   const std::size_t columns = operands + (by_angle ? 2 : 1);
   std::vector<float> rows;
@@ -82,7 +82,7 @@ absl::Status OperatorEvaluator::evaluate(const std::shared_ptr<const operators::
                                          std::span<float> results) {
   std::shared_ptr<const operators::Operator> steered = op;
   if (steering == Steering::kAlpha && op->form == operators::Form::kDifference) {
-    // A difference turns its first operand inside out, and its gradient round.
+    // A difference turns its first operand inside out, which reverses its gradient, and so the opening is turned, too.
     auto turned = std::make_shared<operators::Operator>(*op);
     std::visit(
         []<class K>(K& kind) {

@@ -1,4 +1,4 @@
-// Values and partial derivatives of operators at given field values, on the device.
+// OperatorEvaluator computes values and partial derivatives of operators at given field values, on the device.
 #pragma once
 
 #include <absl/status/status.h>
@@ -13,21 +13,23 @@
 
 namespace isofield::engine {
 
-// What steers an operator beside its fields.
+// The number that steers an operator beside its fields: none, the opening angle theta, or the angle alpha between the
+// gradients of its operands.
 enum class Steering : std::uint32_t { kNone, kTheta, kAlpha };
 
-// Thread-safe.
+// Thread-safe. What it is given must outlive it.
 class OperatorEvaluator {
  public:
   OperatorEvaluator(gpu::Device& device, KernelCache& kernels, VolumeCache& volumes)
       : device_(device), kernels_(kernels), volumes_(volumes) {}
 
-  // arguments: rows of `operands` field values, theta or alpha where the operator is steered by one (radians), and, for
-  // operators that follow the angle of two gradients, the ratio of their lengths; results: rows of g, its derivatives
-  // by the fields, and by theta or alpha. An operator of either law is taken for positive fields.
+  // A row of `arguments` has `operands` field values; then theta or alpha (radians) if the operator is steered by it;
+  // or the angle (radians) and the ratio of the lengths of two gradients if the operator follows their angle. A row of
+  // `results` has g, its derivatives by the fields, and by theta or alpha if it steers. An operator of either law is
+  // taken for positive fields.
   absl::Status evaluate(const std::shared_ptr<const operators::Operator>& op, std::size_t operands, Steering steering,
                         std::span<const float> arguments, std::span<float> results);
-  // results: rows of theta, dtheta/dalpha.
+  // Evaluates an opening function at angles alpha, in radians. A row of `results` has theta and dtheta/dalpha.
   absl::Status evaluate_opening(const operators::Opening& opening, std::span<const float> alphas,
                                 std::span<float> results);
 

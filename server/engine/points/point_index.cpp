@@ -7,15 +7,17 @@
 namespace isofield::engine {
 namespace {
 
-// Points asked of a scene before it is given an index: to sort as many without one takes as long as to make one.
+// A scene is given an index after this many points: sorting them without one takes as long as making one.
 constexpr std::uint64_t kHotPoints = 1u << 19;
-// Batches beyond this wait for one to be made, some 30 ms: others join it while it holds the device.
+// Only batches of more points make an index and wait for it, which takes some 30 ms. Smaller ones go on without one,
+// because other batches may have joined them and would wait, too.
 constexpr std::uint64_t kLargeBatch = 1u << 14;
-// Bricks a point of a batch beyond which passing over them takes longer than sorting the batch by itself.
+// If the index has more bricks than this for each point of a batch, going through all bricks takes longer than sorting
+// the batch by itself.
 constexpr std::uint64_t kBricksPerPoint = 4;
 
 constexpr std::size_t kMostEntries = 64;
-constexpr std::size_t kMostInstructions = blobtree::PointGrid::kMostInstructions;  // of all that are kept
+constexpr std::size_t kMostInstructions = blobtree::PointGrid::kMostInstructions;  // of all indices that are kept
 
 }  // namespace
 
@@ -64,7 +66,7 @@ absl::StatusOr<std::shared_ptr<const PointIndex>> PointIndexCache::find(gpu::Dev
     e.points += points;
     if (e.index) return fits(*e.index) ? e.index : nullptr;
     if (!may_make || e.is_tried || e.points < kHotPoints || points <= kLargeBatch) return nullptr;
-    e.is_tried = true;  // others go on without one meanwhile
+    e.is_tried = true;  // other batches go on without an index meanwhile
   }
   absl::StatusOr<std::shared_ptr<const PointIndex>> made = PointIndex::make(device, scene, cancelled);
   const base::MutexLock lock(mutex_);

@@ -1,4 +1,5 @@
-// The tapes of a resident scene's bricks, on the device, for the batches of points that are asked of it.
+// A PointIndex holds a scene's bricks and their pruned tapes on the device, so that batches of points can be sorted by
+// brick without pruning tapes for each batch.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -15,20 +16,21 @@
 
 namespace isofield::engine {
 
-// Immutable. The scene outlives it.
+// Immutable; any number of threads may use it. The scene must outlive it.
 class PointIndex {
  public:
+  // Errors are those of blobtree::PointGrid::make() and of the device.
   static absl::StatusOr<std::shared_ptr<const PointIndex>> make(gpu::Device& device, const ResidentScene& scene,
                                                                 const std::function<bool()>& cancelled);
 
   struct Tape {
-    std::uint32_t begin, count, window;  // as of TapeWindows::add
+    std::uint32_t begin, count, window;  // as TapeWindows::add gives them
   };
   const blobtree::PointGrid& grid() const { return grid_; }
-  // Of the grid's bricks.
+  // One tape for each brick of the grid.
   const std::vector<Tape>& tapes() const { return tapes_; }
   const TapeWindows& windows() const { return windows_; }
-  std::size_t instructions() const { return instructions_; }  // of all tapes
+  std::size_t instructions() const { return instructions_; }  // the sum over all tapes
 
  private:
   PointIndex(gpu::Device& device, const ResidentScene& scene, blobtree::PointGrid grid, blobtree::BrickList bricks);
@@ -39,12 +41,13 @@ class PointIndex {
   std::vector<Tape> tapes_;
 };
 
-// Keeps the indices of the scenes that are asked most. Thread-safe.
+// Keeps the indices of scenes that many points are asked of. Thread-safe.
 class PointIndexCache {
  public:
-  // Null: the batch had better be sorted by itself, since few points have been asked of the scene or are in the batch,
-  // or the scene has no index. `points`: how many are to be evaluated now. `may_make`: false for those who hold a turn
-  // at the device.
+  // Returns the scene's index, and makes it if need be. Null: the batch had better be sorted by itself, because few
+  // points have been asked of the scene or are in the batch, or because the scene has no index. `points` is how many
+  // are evaluated now. `may_make` must be false for callers that hold a turn at the device. CANCELLED is the only
+  // error.
   absl::StatusOr<std::shared_ptr<const PointIndex>> find(gpu::Device& device, const ResidentScene& scene,
                                                          std::uint64_t points, bool may_make,
                                                          const std::function<bool()>& cancelled);

@@ -1,5 +1,5 @@
-// What is asked of the field at points, and how the answer lies in memory. Whoever adds a quantity adds it here, to
-// v1::Quantity, and to the kernels that write it.
+// Names the quantities that can be asked of the field at a point, and says how the answer lies in memory. To add a
+// quantity, add it here, to v1::Quantity, and to the kernels that write it.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ enum class Quantity : std::uint8_t { kValue, kGradient };
 
 struct QuantityTraits {
   Quantity quantity;
-  std::size_t numbers;               // of a point
-  std::array<const char*, 3> names;  // of these
+  std::size_t numbers;               // how many a point has
+  std::array<const char*, 3> names;  // the names of these numbers
 };
-// In the order in which the numbers of a point lie.
+// The quantities in the order in which the numbers of a point lie.
 inline constexpr std::array kQuantities{QuantityTraits{Quantity::kValue, 1, {"value"}},
                                         QuantityTraits{Quantity::kGradient, 3, {"gx", "gy", "gz"}}};
 
-// A set of quantities. Answers hold a row of float32 numbers a point, one row after the other.
+// A set of quantities. An answer holds a row of float32 numbers for each point, one row after the other.
 class ResultLayout {
  public:
   static const ResultLayout kValue, kValueAndGradient;
@@ -32,13 +32,13 @@ class ResultLayout {
   }
 
   constexpr bool has(Quantity q) const { return (bits_ & bit(q)) != 0; }
-  // Of a point, and of so many points.
+  // Return how many numbers one point has, and how many `points` have.
   constexpr std::size_t numbers() const { return first_after(kQuantities.size()); }
   constexpr std::size_t numbers(std::size_t points) const { return numbers() * points; }
   constexpr std::size_t bytes() const { return numbers() * sizeof(float); }
-  // Where the quantity begins in a row.
+  // Returns the place in a row at which the quantity begins.
   constexpr std::size_t first(Quantity q) const { return first_after(static_cast<std::size_t>(q)); }
-  // Such as "value, gx, gy, gz".
+  // Returns the names of a row's numbers, such as "value, gx, gy, gz".
   std::string names() const {
     std::string all;
     for (const QuantityTraits& t : kQuantities) {
@@ -53,7 +53,7 @@ class ResultLayout {
 
  private:
   static constexpr std::uint8_t bit(Quantity q) { return static_cast<std::uint8_t>(1u << static_cast<unsigned>(q)); }
-  // Numbers of the quantities that are there among the first `count` of the table.
+  // Counts the numbers of this layout's quantities among the first `count` of the table.
   constexpr std::size_t first_after(std::size_t count) const {
     std::size_t sum = 0;
     for (std::size_t i = 0; i < count; ++i) sum += has(kQuantities[i].quantity) ? kQuantities[i].numbers : 0;
@@ -66,14 +66,14 @@ class ResultLayout {
 inline constexpr ResultLayout ResultLayout::kValue{Quantity::kValue};
 inline constexpr ResultLayout ResultLayout::kValueAndGradient{Quantity::kValue, Quantity::kGradient};
 
-// The answer for a batch of points.
+// A view of the answer for a batch of points, by point and quantity.
 class ResultRows {
  public:
-  // `numbers` holds whole rows, and outlives this.
+  // `numbers` holds whole rows and must outlive this.
   ResultRows(ResultLayout layout, std::span<const float> numbers) : layout_(layout), numbers_(numbers) {}
 
   std::size_t size() const { return numbers_.size() / layout_.numbers(); }
-  // Of point n; the layout has the quantity.
+  // Return a quantity of point n. The layout must have the quantity.
   float value(std::size_t n) const { return at(n, Quantity::kValue)[0]; }
   std::array<float, 3> gradient(std::size_t n) const {
     const float* const g = at(n, Quantity::kGradient);

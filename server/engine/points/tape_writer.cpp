@@ -14,13 +14,13 @@ using blobtree::Instruction;
 using blobtree::Operand;
 using operators::Opcode;
 
-// A number as GLSL's uint.
+// Returns a number as a literal of GLSL's type uint.
 template <class T>
 std::string literal(T number) {
   return absl::StrCat(static_cast<std::uint32_t>(number), "u");
 }
 
-// The name of a specialisation constant.
+// Returns the name of a specialisation constant.
 std::string name_of(std::size_t constant) {
   if (constant < kKernelConstantNames.size()) return kKernelConstantNames[constant];
   const std::size_t word = constant - kKernelConstantNames.size();
@@ -42,7 +42,7 @@ class Writer {
     if (operators::traits_of(i.op()).applies == operators::Applies::kMany) return write_many(i);
     const std::string operand = right_operand(i);
     if (i.op() == Opcode::kPush) {
-      // The first one pushes nothing.
+      // The first instruction of a tape finds no accumulator to push.
       if (!accumulator_.empty()) waiting_.push_back(accumulator_);
       accumulator_ = operand;
       return;
@@ -61,7 +61,8 @@ class Writer {
     return define(absl::StrCat("leaf_field(p, ", literal(i.operand()), ", ", literal(i.leaf), ")"));
   }
 
-  // As operators.glsl has operands of many: the last one first, and what is beyond is of none.
+  // Writes an operator that takes many operands in the order that operators.glsl expects: the last operand comes first,
+  // and unused places of the array repeat it.
   void write_many(const Instruction& i) {
     std::string operands = accumulator_;
     const int count = std::popcount(i.leaf);

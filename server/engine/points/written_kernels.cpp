@@ -15,13 +15,14 @@
 namespace isofield::engine {
 namespace {
 
-// Structures whose points are counted; of more, those without a kernel are forgotten.
+// The most structures whose points are counted. Beyond this number, those that have reached no kernel are forgotten.
 constexpr std::size_t kMostStructures = 1024;
-// The most kernels that are held; for another one the least recently used is freed.
+// The most kernels that are held. Before another one is made, the least recently used one is freed.
 constexpr std::uint64_t kMostKernels = 256;
 constexpr int kNiceness = 10;
 
-// Of an instruction that is not light: 7 against 120 M points/s of eight spheres.
+// The work of an instruction in a tape that is not all light, in light ones: eight spheres took 7 against 120 million
+// points a second (measured).
 constexpr std::size_t kHeavyWork = 16;
 
 constexpr bool is_light(operators::Opcode op) {
@@ -32,7 +33,7 @@ bool all_light(const blobtree::Tape& tape) {
   return std::all_of(tape.code.begin(), tape.code.end(), [](const auto& i) { return is_light(i.op()); });
 }
 
-// For longer tapes, sorting the points and pruning the tape gain more.
+// The longest tape that gets a kernel. For longer tapes, sorting the points and pruning the tape gain more.
 std::size_t most_instructions(const blobtree::Tape& tape, const gpu::DeviceProfile& profile) {
   return all_light(tape) ? profile.written_instructions : profile.written_heavy_instructions;
 }
@@ -107,7 +108,7 @@ WrittenKernels::Counts WrittenKernels::counts() const {
 }
 
 void WrittenKernels::work() {
-  // Of this thread alone, on Linux.
+  // On Linux this lowers the priority of this thread alone.
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
   base::MutexLock lock(mutex_);
   while (true) {
@@ -120,7 +121,7 @@ void WrittenKernels::work() {
     auto kernel = make(wanted);
     wanted.scene.reset();
     lock.lock();
-    // A structure that fails once does so always, and stays with the interpreter.
+    // A structure that fails once would always fail, and stays with the interpreter.
     if (kernel.ok()) {
       entries_[wanted.key].kernel = *std::move(kernel);
       ++counts_.kernels;

@@ -1,4 +1,5 @@
-// Tier two: kernels written for one structure of tapes each, made in the background for those that are asked often.
+// WrittenKernels makes tier-two kernels: in the background, a scene that is asked often gets a kernel that is written
+// for the structure of its tape. The interpreter serves all other scenes.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -23,49 +24,50 @@ namespace isofield::engine {
 
 struct TierTwoOptions {
   bool is_on = true;
-  // How many points of a structure are evaluated before it gets a kernel.
+  // The number of points that are evaluated with tapes of one structure before it gets a kernel.
   std::uint64_t hot_points = 1u << 20;
-  // The folder that keeps compiled kernels; if it is empty, nothing does.
+  // The folder that keeps compiled kernels; if its name is empty, they are not kept.
   std::string folder;
 };
 
-// Kernels that are written for the structure of a tape. Two tapes have the same structure where they differ only in the
-// contents of their records: parameters are data, so that scenes share kernels. Thread-safe.
+// Two tapes have the same structure if they differ only in the contents of their records. Parameters are data of a
+// kernel, so that scenes of one structure share it. Owns a thread that writes and compiles kernels. Thread-safe; a
+// kernel that cannot be made is counted as a failure, and its scenes stay with the interpreter.
 class WrittenKernels {
  public:
   WrittenKernels(gpu::Device& device, TierTwoOptions options);
   // Waits until the kernel that is being compiled is finished.
   ~WrittenKernels();
 
-  // The work of a point in the kernel of such a tape, in instructions of cheap operators such as sums.
+  // Returns the work of a point in the kernel of such a tape, counted in instructions of cheap operators such as sums.
   static std::size_t work_of(const blobtree::Tape& tape);
 
-  // The kernel of shaders/tape_points.comp for the scene's whole tape, or null where there is none, not yet, or never.
-  // Never waits for one. `points`: how many will be evaluated now.
+  // Returns the kernel of shaders/tape_points.comp for the scene's whole tape, or null if there is none or none yet. It
+  // never waits for a kernel. `points` is how many points are evaluated now; they count towards hot_points.
   gpu::SharedPipeline find(const ResidentScene& scene, bool with_gradient, std::uint64_t points);
 
-  // Waits until every structure that has reached hot_points has its kernel, or is known to get none.
+  // Waits until every structure that has reached hot_points has its kernel or is known to get none.
   void wait();
 
   struct Counts {
-    std::uint64_t kernels = 0;    // made so far
-    std::uint64_t from_disk = 0;  // of these, those that were compiled by an earlier process
+    std::uint64_t kernels = 0;    // how many have been made so far
+    std::uint64_t from_disk = 0;  // how many of them an earlier process had compiled
     std::uint64_t failures = 0;
   };
   Counts counts() const;
 
  private:
-  // The structure of a tape, with the quantity that is asked.
+  // Identifies the structure of a tape, and whether the gradient is asked.
   using Key = std::vector<std::uint32_t>;
   struct Entry {
     std::uint64_t points = 0;
     bool is_hot = false;
     gpu::SharedPipeline kernel;
-    std::uint64_t last_used = 0;  // in calls of find()
+    std::uint64_t last_used = 0;  // the number of the call of find()
   };
   struct Wanted {
     Key key;
-    SceneLease scene;  // one of the structure
+    SceneLease scene;  // a scene of this structure
     bool with_gradient;
   };
 
@@ -82,12 +84,11 @@ class WrittenKernels {
   mutable base::Mutex mutex_;
   base::Condition wanted_more_, made_one_;
   std::map<Key, Entry> entries_ ABSL_GUARDED_BY(mutex_);
-  std::uint64_t uses_ ABSL_GUARDED_BY(mutex_) = 0, held_ ABSL_GUARDED_BY(mutex_) =
-                                                       0;  // calls of find(), kernels that are there or wanted
+  std::uint64_t uses_ ABSL_GUARDED_BY(mutex_) = 0, held_ ABSL_GUARDED_BY(mutex_) = 0;  // calls of find(); kernels that exist or are wanted
   std::deque<Wanted> wanted_ ABSL_GUARDED_BY(mutex_);
   bool is_at_work_ ABSL_GUARDED_BY(mutex_) = false, is_over_ ABSL_GUARDED_BY(mutex_) = false;
   Counts counts_ ABSL_GUARDED_BY(mutex_);
-  std::thread worker_;  // last: it uses the others
+  std::thread worker_;  // the last member, since it uses the others
 };
 
 }  // namespace isofield::engine

@@ -1,4 +1,5 @@
-// A scene on the device: its tape, from which requests prune theirs, with the parameter buffers that kernels read.
+// A ResidentScene is a scene on the device: its tape, from which each request prunes the tapes that it needs, and the
+// parameter buffers that kernels read.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -17,22 +18,25 @@
 
 namespace isofield::engine {
 
-// Immutable: an edit makes a new one. A shared_ptr to it is the lease under which a request reads; the buffers go when
-// the last lease does.
+// Immutable, since an edit makes a new one, and so any thread may use it. A shared_ptr to it is the lease under which a
+// request reads; the buffers are freed when the last lease is gone.
 class ResidentScene : public std::enable_shared_from_this<ResidentScene> {
  public:
+  // Uploads the tape's parameters and builds its volumes. Errors are those of the device and of VolumeCache::get().
   static absl::StatusOr<std::shared_ptr<const ResidentScene>> create(gpu::Device& device, VolumeCache& volumes,
                                                                      blobtree::Tape tape);
-  // With other parameters of operators: `tape` is this scene's but for these. Shares the leaves and the volumes.
+  // Returns a scene that differs from this one only in parameters of operators, as its `tape` has them. It shares the
+  // leaves and the volumes with this one.
   absl::StatusOr<std::shared_ptr<const ResidentScene>> with_operations(gpu::Device& device, blobtree::Tape tape) const;
 
   const blobtree::Tape& tape() const { return tape_; }
   const blobtree::ParameterBuffers& parameters() const { return parameters_; }
-  // The bindings of a kernel that runs tapes pruned from this scene's, which lie in `code`, with its own ones.
+  // Returns all bindings of a kernel that runs tapes pruned from this scene's: the scene's buffers, `code`, which holds
+  // the tapes, and the kernel's own bindings.
   gpu::Commands::Bindings bindings(const gpu::Buffer& code, const gpu::Commands::Bindings& own) const;
-  // Volumes that it shares with others count whole.
+  // Volumes that it shares with other scenes count in full.
   std::uint64_t device_bytes() const;
-  // Without volumes.
+  // The same without volumes.
   std::uint64_t own_bytes() const { return leaves_->size() + operations_.size() + tables_.size(); }
   bool shares_leaves_with(const ResidentScene& other) const { return leaves_ == other.leaves_; }
 

@@ -1,4 +1,5 @@
-// What a cache keeps of resident scenes.
+// A list for caches that keep something for each resident scene, such as meshes or indices: the most recently used
+// entry is first, and entries go when their scene does.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +11,13 @@
 
 namespace isofield::engine {
 
-// Entries have a member `scene`, a std::weak_ptr<const ResidentScene>; those of scenes that are gone go. Not
-// thread-safe.
+// `Entry` has a member `scene`, a std::weak_ptr<const ResidentScene>; an entry whose scene is gone is removed at the
+// next call. Not thread-safe.
 template <class Entry>
 class SceneEntries {
  public:
-  // The scene's entry for which fits(entry), which is the last used from now on. Null: none.
+  // Returns the scene's entry for which fits(entry) holds and makes it the most recently used one; null if there is
+  // none.
   template <class Fits>
   Entry* find(const ResidentScene& scene, const Fits& fits) {
     entries_.remove_if([](const Entry& e) { return e.scene.expired(); });
@@ -33,7 +35,8 @@ class SceneEntries {
     return entries_.front();
   }
 
-  // Asks keep(entry) from the last used on; from where it says no, all go.
+  // Asks keep(entry) for each entry, the most recently used first. It removes the first entry for which the answer is
+  // false, and all entries after it.
   template <class Keep>
   void trim(const Keep& keep) {
     entries_.remove_if([](const Entry& e) { return e.scene.expired(); });
@@ -41,7 +44,7 @@ class SceneEntries {
   }
 
  private:
-  std::list<Entry> entries_;  // the last used first
+  std::list<Entry> entries_;  // the most recently used first
 };
 
 }  // namespace isofield::engine

@@ -1,5 +1,5 @@
-// Pruned tapes on the device, in windows that kernels read as uniform buffers (shaders/lib/parameters.glsl says why).
-// A tape too long for a window is read from a storage buffer.
+// Puts pruned tapes on the device, cut into windows that kernels read as uniform buffers (shaders/lib/parameters.glsl
+// says why). A kernel reads a tape that is too long for a window from a storage buffer.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -14,6 +14,8 @@
 
 namespace isofield::engine {
 
+// Owns the tapes' buffers. Used by one thread: add() for each tape, then upload(); after that it does not change, and
+// any thread may read it.
 class TapeWindows {
  public:
   // `scene` must outlive it. `code` holds tapes pruned from the scene's.
@@ -22,22 +24,24 @@ class TapeWindows {
   TapeWindows(const TapeWindows&) = delete;
   TapeWindows& operator=(const TapeWindows&) = delete;
 
-  // As WindowPacker::add; what kernels are to be given as the tape's beginning.
+  // Puts the `count` instructions from `begin` on into a window. Returns the window's number, or kNoWindow if the tape
+  // is too long for one, and changes `begin` to what kernels must be given as the tape's beginning.
   std::uint32_t add(std::uint32_t& begin, std::uint32_t count) {
     const std::uint32_t window = packer_.add(begin, count);
     has_long_tapes_ = has_long_tapes_ || window == kNoWindow;
     return window;
   }
-  // After the last add().
+  // Uploads all tapes. Call it once, after the last add().
   absl::Status upload(Session& session);
 
-  // Of the tapes in one window, or in none: the kernel that runs them, and its bindings.
+  // These two return the kind and the bindings of the kernel that runs the tapes of one window, or tapes in no window.
+  // `of` is the kind of the scene's kernels.
   KernelKind kind(const KernelKind& of, std::uint32_t window) const {
     return window == kNoWindow ? of : windowed(*device_, of);
   }
   gpu::Commands::Bindings bindings(std::uint32_t window, const gpu::Commands::Bindings& own) const;
 
-  // The kernel of tapes in windows, whichever.
+  // Returns the kind of the kernel that runs tapes in windows; it is the same for all windows.
   static KernelKind windowed(const gpu::Device& device, const KernelKind& kind);
 
   static constexpr std::uint32_t kNoWindow = blobtree::WindowPacker::kNoWindow;

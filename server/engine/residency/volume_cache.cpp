@@ -22,7 +22,7 @@ namespace {
 using operators::Operator;
 using operators::Silhouette;
 
-// What operator_volume.comp knows of a layer: t = tan(theta), dt/dtheta.
+// The numbers of a layer of nodes with the same theta, for operator_volume.comp: t = tan(theta) and dt/dtheta.
 using Angle = std::array<float, 2>;
 
 std::vector<Angle> angles(int size) {
@@ -34,7 +34,8 @@ std::vector<Angle> angles(int size) {
   return result;
 }
 
-// The buffer holds nodes when the session has run; `inputs` must live until then.
+// Records the dispatches that fill the nodes of a Gradient's volume. The buffer holds the nodes when the session has
+// run; `inputs` must live until then.
 absl::StatusOr<gpu::Buffer> fill_gradient(Session& session, KernelCache& kernels, const operators::Gradient& op,
                                           std::vector<gpu::Buffer>& inputs) {
   const auto size = static_cast<std::uint32_t>(op.volume);
@@ -105,7 +106,7 @@ absl::StatusOr<VolumeCache::Key> VolumeCache::key_of(const Operator& op) {
 
 std::shared_ptr<VolumeCache::Place> VolumeCache::place_of(const Key& key) {
   const base::MutexLock lock(mutex_);
-  // Places that nobody builds in or reads from.
+  // Removes the places of volumes that nobody builds or holds.
   std::erase_if(places_, [](const auto& p) { return p.second.use_count() == 1 && !p.second->lease(); });
   std::shared_ptr<Place>& place = places_[key];
   if (!place) place = std::make_shared<Place>();
@@ -113,7 +114,7 @@ std::shared_ptr<VolumeCache::Place> VolumeCache::place_of(const Key& key) {
 }
 
 absl::StatusOr<VolumeLease> VolumeCache::build(const Operator& op) {
-  std::vector<gpu::Buffer> inputs;  // outlive the session
+  std::vector<gpu::Buffer> inputs;  // declared before the session, so that they outlive it
   ISOFIELD_ASSIGN_OR_RETURN(Session session, Session::begin(device_));
   const auto* sampled = op.as<operators::Sampled>();
   ISOFIELD_ASSIGN_OR_RETURN(gpu::Buffer nodes,
@@ -130,7 +131,7 @@ absl::StatusOr<VolumeLease> VolumeCache::get(const Operator& op) {
   if (VolumeLease volume = place->lease()) {
     const operators::SampledVolume* samples = samples_of(op);
     const bool is_same = !samples || samples == volume->samples_.get() || samples->values == volume->samples_->values;
-    // Other samples of the same digest: their volume is not shared.
+    // Different samples can have the same digest; their volume is not shared.
     return is_same ? absl::StatusOr<VolumeLease>(volume) : build(op);
   }
   ISOFIELD_ASSIGN_OR_RETURN(VolumeLease volume, build(op));

@@ -1,5 +1,5 @@
-// Operators as volumes on the device ([G] section 4.3): built on first use, shared by all who use the same operator,
-// gone with the last of them.
+// Keeps operators as volumes, 3-D tables of their values, on the device ([G] section 4.3). A volume is built on first
+// use, shared by all scenes that have the same operator, and freed with the last of them.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -17,8 +17,8 @@
 
 namespace isofield::engine {
 
-// (g, dg/df1, dg/df2, dg/dtheta) in float32 at size^3 nodes: shaders/lib/volume.glsl. Immutable; a shared_ptr to it is
-// the lease under which kernels read.
+// A volume holds (g, dg/df1, dg/df2, dg/dtheta) in float32 at size^3 nodes (shaders/lib/volume.glsl). Immutable; a
+// shared_ptr to it is the lease under which kernels read.
 class Volume {
  public:
   const gpu::Buffer& buffer() const { return buffer_; }
@@ -32,36 +32,36 @@ class Volume {
 
   gpu::Buffer buffer_;
   int size_;
-  std::shared_ptr<const operators::SampledVolume> samples_;  // what it was made of, if not of a formula
+  std::shared_ptr<const operators::SampledVolume> samples_;  // the samples that it was made from; null: a formula
 };
 
 using VolumeLease = std::shared_ptr<const Volume>;
 
-// Thread-safe. A volume that two threads want is built once, and the second waits. Outlives no device; volumes may
-// outlive the cache.
+// Thread-safe. A volume that two threads want at once is built once, and the second thread waits. The device must
+// outlive the cache; volumes may outlive the cache.
 class VolumeCache {
  public:
   VolumeCache(gpu::Device& device, KernelCache& kernels) : device_(device), kernels_(kernels) {}
 
-  // Of a Gradient with 16, 32, 64 or 128 samples a side, or of a Sampled. INVALID_ARGUMENT: any other.
-  // RESOURCE_EXHAUSTED: no memory; a later call tries again.
+  // Returns the volume of a Gradient with 16, 32, 64 or 128 samples a side, or of a Sampled operator. INVALID_ARGUMENT:
+  // any other operator. RESOURCE_EXHAUSTED: no memory; a later call tries again.
   absl::StatusOr<VolumeLease> get(const operators::Operator& op);
 
-  // Bytes of an operator's volume where somebody holds it, or 0.
+  // Returns the bytes of the operator's volume, or 0 if nobody holds it.
   std::uint64_t resident_bytes(const operators::Operator& op) const;
 
   struct Usage {
     std::uint64_t volumes = 0, bytes = 0;
   };
-  // Of the volumes in use now.
+  // Counts the volumes in use now, and their bytes.
   Usage usage() const;
 
  private:
-  // What a volume depends on; samples by a digest of their content.
+  // Everything that a volume depends on; the last member is a digest of the samples, or 0 for a formula.
   using Key = std::tuple<operators::Kind, operators::Silhouette, int, std::size_t>;
   struct Place {
     base::Mutex building;
-    base::Mutex mutex;  // of `volume`, so that usage() waits for no builder
+    base::Mutex mutex;  // guards `volume`; separate from `building`, so that usage() waits for no builder
     std::weak_ptr<const Volume> volume ABSL_GUARDED_BY(mutex);
     VolumeLease lease();
   };

@@ -13,7 +13,7 @@ MeshMeasures measure(const Mesh& mesh) {
     m.bounds.add({p, p});
   }
   if (mesh.triangles.empty()) return m;
-  // Tetrahedra from the middle: far from the origin their volumes would cancel.
+  // The tetrahedra have their apex in the middle of the mesh, because far from the origin their volumes would cancel.
   const dvec3 middle = (m.bounds.min + m.bounds.max) * 0.5;
   const auto vertex = [&](std::uint32_t v) {
     const float* p = &mesh.positions[3 * std::size_t{v}];

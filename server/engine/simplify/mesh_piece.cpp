@@ -13,13 +13,13 @@ namespace {
 
 using blobtree::dvec3;
 
-// Height by longest edge.
+// A triangle whose height is less than this part of its longest edge is flat.
 constexpr double kThin = 0.01;
 constexpr int kTurnSweeps = 4;
 
 struct Shape {
-  double height;  // by the longest edge
-  int longest;    // the edge from this corner to the next
+  double height;  // the height over the longest edge, as a part of that edge
+  int longest;    // the longest edge leads from this corner to the next
 };
 Shape shape_of(std::span<const float> positions, const Triangle& t) {
   Shape shape{0, 0};
@@ -36,7 +36,7 @@ Triangle rotated(const Triangle& t, int first) {
   return {t[first], t[(first + 1) % 3], t[(first + 2) % 3]};
 }
 
-// A side of a triangle, from its corner to the next.
+// A half-edge of a triangle, which leads from its corner to the next.
 struct Side {
   std::uint64_t edge;
   std::uint32_t corner;
@@ -65,7 +65,7 @@ class Surface {
     }
   }
 
-  // Calls visit(sides) with those of each edge.
+  // Calls visit(sides) for each edge, with the half-edges that lie on it.
   template <class Visit>
   void for_edges(const Visit& visit) const {
     for (std::size_t begin = 0, end; begin < sides_.size(); begin = end) {
@@ -83,7 +83,7 @@ class Surface {
  private:
   std::span<const Triangle> triangles_;
   std::vector<Side> sides_;
-  DisjointSets fan_corners_;  // joined: of one fan
+  DisjointSets fan_corners_;  // joins the corners of one fan
   absl::flat_hash_map<std::uint32_t, int> fans_;
   std::int64_t edges_ = 0;
 };
@@ -92,7 +92,7 @@ class Surface {
 
 void turn_flat(std::span<const float> positions, std::vector<Triangle>& triangles) {
   const auto sides = [](const Triangle& t, int i) { return std::uint64_t{t[i]} << 32 | t[(i + 1) % 3]; };
-  absl::flat_hash_map<std::uint64_t, std::uint32_t> owners;  // of sides
+  absl::flat_hash_map<std::uint64_t, std::uint32_t> owners;  // the triangle of each half-edge
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) owners[sides(triangles[t], i)] = t;
   }
@@ -128,7 +128,7 @@ void turn_flat(std::span<const float> positions, std::vector<Triangle>& triangle
 }
 
 MeshEdges::MeshEdges(std::span<const Triangle> triangles, std::size_t vertices) : starts_(vertices + 1) {
-  // In a closed mesh every edge rises along one of its sides.
+  // Each edge of a closed mesh has two half-edges, and exactly one of them leads from the lower vertex to the higher.
   const auto for_rising = [&](const auto& visit) {
     for (const Triangle& t : triangles) {
       for (int i = 0; i < 3; ++i) {
@@ -151,8 +151,8 @@ bool MeshEdges::contains(std::uint64_t edge) const {
 
 Fit fit(std::span<const Triangle> before, std::span<const Triangle> after, const MeshEdges& mesh) {
   const Surface old(before), now(after);
-  absl::flat_hash_set<std::uint64_t> inner;         // edges
-  absl::flat_hash_map<std::uint64_t, bool> border;  // edges: whether rising
+  absl::flat_hash_set<std::uint64_t> inner;         // keys of edges
+  absl::flat_hash_map<std::uint64_t, bool> border;  // keys of edges; true: the half-edge rises
   absl::flat_hash_set<std::uint32_t> border_vertices;
   old.for_edges([&](std::span<const Side> uses) {
     if (uses.size() > 1) {

@@ -1,4 +1,5 @@
-// A piece of a mesh that is being simplified.
+// Tools for a piece of a mesh that is being simplified: they tell whether new triangles fit into its place, and improve
+// flat ones.
 #pragma once
 
 #include <absl/container/flat_hash_set.h>
@@ -11,12 +12,13 @@
 
 namespace isofield::engine {
 
-// The lower vertex in the upper half.
+// Returns the key of an edge, the same in both directions: the lower vertex number is in the upper half.
 constexpr std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t{a < b ? a : b} << 32 | (a < b ? b : a);
 }
 
-// The edges of a mesh as it is, and those that come to it. Those that go are not forgotten.
+// The set of the edges of a mesh, and of edges that are added while it is simplified. Edges that vanish from the mesh
+// stay in the set. Not thread-safe.
 class MeshEdges {
  public:
   MeshEdges(std::span<const Triangle> triangles, std::size_t vertices);
@@ -24,21 +26,22 @@ class MeshEdges {
   void insert(std::uint64_t edge) { added_.insert(edge); }
 
  private:
-  std::vector<std::uint32_t> starts_, ends_;  // by the lower vertex, the higher ones
+  // The higher vertices of the edges of each lower vertex v: ends_[starts_[v]] up to ends_[starts_[v + 1]].
+  std::vector<std::uint32_t> starts_, ends_;
   absl::flat_hash_set<std::uint64_t> added_;
 };
 
-// Turns the longest edges of triangles without height, with vertices in line, where that makes better ones. Edges that
-// one triangle alone has stay.
+// Improves triangles whose vertices nearly lie in a line: it replaces their longest edge by the other diagonal of the
+// two triangles at it, if that makes better ones. Edges that only one triangle has stay.
 void turn_flat(std::span<const float> positions, std::vector<Triangle>& triangles);
 
-// How triangles `after` fail to take the place of `before` in a mesh that is a closed 2-manifold so that it stays one:
-// they have the same border, its vertices are joined by no edge that the rest of the mesh has, and triangles form one
-// fan around each vertex.
+// Says whether triangles `after` can take the place of triangles `before` in a mesh that is a closed 2-manifold, so
+// that it stays one. For that they must have the same border, join its vertices by no edge that the rest of the mesh
+// has, and form as many fans around each vertex as before.
 struct Fit {
-  std::vector<std::uint32_t> misfits;  // vertices about which that fails
-  bool has_same_handles = false;       // and parts
-  std::vector<std::uint64_t> chords;   // edges that `after` has between vertices of the border, and `before` has not
+  std::vector<std::uint32_t> misfits;  // the vertices at which one of these rules is broken
+  bool has_same_handles = false;       // true: the Euler characteristic, and so handles and parts, are the same
+  std::vector<std::uint64_t> chords;   // edges between vertices of the border that `after` has and `before` has not
 };
 Fit fit(std::span<const Triangle> before, std::span<const Triangle> after, const MeshEdges& mesh);
 

@@ -20,25 +20,26 @@ namespace {
 
 using blobtree::dvec3;
 
-// Edges of the mesh along a piece: within one, meshoptimizer's float32 quadrics are exact enough, and none takes long.
+// The length of a piece, in mean edges: meshoptimizer's float32 quadrics are exact enough there, and none takes long.
 constexpr double kPieceEdges = 24;
-// The pieces of each pass are larger, since the triangles are, and lie across the borders of those before.
+// Pieces grow from pass to pass, since the triangles do, and shift, so that they lie across the borders before.
 constexpr int kPasses = 4;
 constexpr double kGrowth = 1.3, kShift = 0.37;
-// What meshoptimizer is asked for, in parts of the bound, at first and more from pass to pass: its error is a mean over
-// planes and starts from nothing in each pass.
+// The error that meshoptimizer is allowed, as a part of the bound: at first, and how much more in each pass. Its error
+// is a mean over planes and starts from nothing in each pass.
 constexpr double kFirstAsked = 0.5, kMoreAsked = 0.15;
-// A pass that leaves more than this part of the triangles is the last.
+// A pass that leaves more than this part of the triangles is the last one.
 constexpr double kLittle = 0.98;
-// How often a piece is tried, each time without what went wrong; and then how often again, with half of what was asked.
+// A piece is tried kTries times, each time without the triangles that went wrong; then this is repeated up to kHalvings
+// times, each time with half of the error that was allowed before.
 constexpr int kTries = 4, kHalvings = 2;
-// A triangle is looked at in the middles of such as have edges of this length, in edges of the mesh: an edge apart.
+// A triangle is checked at the middles of smaller ones, with edges of this length in edges of the mesh: an edge apart.
 constexpr double kSampleEdges = 1.7;
-// Cosine of the angle by which a triangle may turn from what it stands for.
+// The cosine of the angle by which a triangle may turn from the triangles that it replaces.
 constexpr double kFacing = 0.5;
-// Twice the area by the square of the longest edge.
+// A triangle is flat if twice its area is at most this part of the square of its longest edge.
 constexpr double kFlat = 1e-6;
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoNumber = std::numeric_limits<std::uint32_t>::max();
 
 class Simplifier {
  public:
@@ -88,7 +89,7 @@ class Simplifier {
     ISOFIELD_RETURN_IF_ERROR(check());
     wedges_ = crease_wedges(mesh_);
     triangles_ = wedges_.triangles;
-    local_.assign(wedges_.vertices.size(), kNone);
+    local_.assign(wedges_.vertices.size(), kNoNumber);
     return absl::OkStatus();
   }
 
@@ -126,7 +127,7 @@ class Simplifier {
     return absl::OkStatus();
   }
 
-  // The cubes that the triangles are in, and the triangles, in order.
+  // Returns each triangle with the cube that its middle lies in, sorted by cube. The triangles of a cube are a piece.
   std::vector<std::pair<std::array<std::int64_t, 3>, std::uint32_t>> pieces(double size, double shift) const {
     std::vector<std::pair<std::array<std::int64_t, 3>, std::uint32_t>> places(triangles_.size());
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
@@ -155,7 +156,8 @@ class Simplifier {
     return false;
   }
 
-  // `piece`: numbers of triangles. What takes their place goes to next_, with the vertices that it is the home of.
+  // Simplifies a piece, which is a list of triangle numbers. The triangles that take their place go to next_, and
+  // homes_ is updated. Returns false, and changes neither, if the piece cannot be simplified.
   bool is_simplified(const std::vector<std::uint32_t>& piece, double asked) {
     for (const std::uint32_t t : piece) {
       for (const std::uint32_t v : vertices_of(triangles_[t])) is_frozen_[v] = false;
@@ -189,7 +191,7 @@ class Simplifier {
     return false;
   }
 
-  // By meshoptimizer: to vertices that are there.
+  // Returns the triangles that meshoptimizer makes of these by collapsing edges; it uses only vertices that they have.
   std::vector<Triangle> collapsed(const std::vector<Triangle>& triangles, double asked) {
     if (triangles.empty()) return {};
     std::vector<std::uint32_t> used, indices, result;
@@ -197,7 +199,7 @@ class Simplifier {
     const dvec3 origin = at(wedges_.vertices[triangles[0][0]]);
     for (const Triangle& t : triangles) {
       for (const std::uint32_t wedge : t) {
-        if (local_[wedge] == kNone) {
+        if (local_[wedge] == kNoNumber) {
           local_[wedge] = static_cast<std::uint32_t>(used.size());
           used.push_back(wedge);
           const dvec3 p = at(wedges_.vertices[wedge]) - origin;
@@ -206,7 +208,7 @@ class Simplifier {
         indices.push_back(local_[wedge]);
       }
     }
-    for (const std::uint32_t wedge : used) local_[wedge] = kNone;
+    for (const std::uint32_t wedge : used) local_[wedge] = kNoNumber;
     const float scale = meshopt_simplifyScale(positions.data(), used.size(), 3 * sizeof(float));
     result.resize(indices.size());
     result.resize(meshopt_simplify(result.data(), indices.data(), indices.size(), positions.data(), used.size(),
@@ -219,8 +221,8 @@ class Simplifier {
     return out;
   }
 
-  // Vertices where triangles are flat, face away or lie too far off, or that lie too far off themselves. `moved`:
-  // vertices that are gone, and the numbers of triangles that they are near.
+  // Returns the vertices at which new triangles are flat, face away or are too far off, or old vertices are too far
+  // off. `moved` receives the vertices that are gone, each with the number of a new triangle near it.
   std::vector<std::uint32_t> faults(const std::vector<std::uint32_t>& before, const std::vector<Triangle>& after,
                                     std::vector<std::pair<std::uint32_t, std::uint32_t>>& moved) {
     std::vector<std::uint32_t> found;
@@ -293,13 +295,13 @@ class Simplifier {
 
   Mesh result() const {
     Mesh out{.cells = mesh_.cells};
-    std::vector<std::uint32_t> numbers(facing_.size(), kNone);
+    std::vector<std::uint32_t> numbers(facing_.size(), kNoNumber);
     for (const Triangle& t : triangles_) {
       for (const std::uint32_t v : vertices_of(t)) numbers[v] = 0;
     }
     std::uint32_t count = 0;
     for (std::uint32_t v = 0; v < numbers.size(); ++v) {
-      if (numbers[v] == kNone) continue;
+      if (numbers[v] == kNoNumber) continue;
       numbers[v] = count++;
       const auto copy = [v](const std::vector<float>& from, std::vector<float>& to) {
         if (!from.empty()) to.insert(to.end(), &from[3 * std::size_t{v}], &from[3 * std::size_t{v}] + 3);
@@ -317,23 +319,24 @@ class Simplifier {
   const Mesh& mesh_;
   const double max_error_;
   const MeshCallbacks& callbacks_;
-  std::vector<Triangle> original_;    // vertex numbers
-  std::optional<TriangleTree> tree_;  // of these
-  double spacing_ = 0;                // mean length of their edges
-  std::vector<dvec3> facing_;         // of the vertices
+  std::vector<Triangle> original_;    // the triangles of mesh_, by vertex numbers
+  std::optional<TriangleTree> tree_;  // finds original triangles
+  double spacing_ = 0;                // mean length of the original edges, model units
+  std::vector<dvec3> facing_;         // the sum of the normals around each vertex
   CreaseWedges wedges_;
-  std::vector<Triangle> triangles_;  // wedge numbers
-  std::vector<Triangle> next_;       // what the pass makes of them
-  // Of each vertex a triangle that it is a corner of or, once it is gone, that is within max_error: in triangles_, in
-  // next_ where the pass has been there.
+  std::vector<Triangle> triangles_;  // the triangles before the present pass, by wedge numbers
+  std::vector<Triangle> next_;       // the triangles that the pass has made so far
+  // The home of each vertex: a triangle that it is a corner of or, once the vertex is gone, one within max_error of it.
+  // The number is one of triangles_, or one of next_ once the pass has been there.
   std::vector<std::uint32_t> homes_;
-  std::vector<std::uint32_t> starts_, guests_;  // of triangle t: guests_[starts_[t]] up to [starts_[t + 1]]
+  // The vertices whose home is triangle t: guests_[starts_[t]] up to guests_[starts_[t + 1]].
+  std::vector<std::uint32_t> starts_, guests_;
   std::optional<MeshEdges> edges_;
-  std::vector<bool> is_frozen_;  // vertices whose triangles stay in the piece as they are
+  std::vector<bool> is_frozen_;  // by vertex; the triangles at a frozen one stay as they are
   double asked_ = 0;
-  std::vector<std::uint32_t> seen_;  // when a vertex was last seen
+  std::vector<std::uint32_t> seen_;  // the value of now_ when a vertex was last seen
   std::uint32_t now_ = 0;
-  std::vector<std::uint32_t> local_;  // numbers of wedges for meshoptimizer
+  std::vector<std::uint32_t> local_;  // the numbers that wedges have for meshoptimizer
 };
 
 }  // namespace

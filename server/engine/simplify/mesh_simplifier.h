@@ -1,4 +1,4 @@
-// Fewer triangles for the same surface, within a stated distance.
+// Simplifies a mesh: makes fewer triangles for the same surface, within a stated distance of it.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -8,12 +8,12 @@
 
 namespace isofield::engine {
 
-// A mesh with some of the vertices of `mesh`, which is a closed 2-manifold, and their normals; as closed, with as many
-// handles. Triangles have an area and face within 60 degrees of what they stand for. Every vertex of `mesh` lies within
-// `max_error` of the answer, and every triangle of the answer, looked at in points an edge of `mesh` apart, within it
-// of `mesh`: model units, > 0. Vertices on creases (crease_wedges.h) stay, or give way to others on the same crease;
-// where creases meet or end they stay. Deterministic. CANCELLED: callbacks.cancelled says so; asked every few
-// milliseconds.
+// Returns a mesh with some of the vertices of `mesh` and their normals. `mesh` must be a closed 2-manifold; the result
+// is one, too, and has as many handles. Its triangles have an area, and each faces within 60 degrees of the triangles
+// that it replaces. `max_error` (model units, > 0) bounds the distance of every vertex of `mesh` from the result, and
+// that of the result from `mesh`, which is checked at points that are an edge of `mesh` apart. Vertices on creases
+// (crease_wedges.h) stay or give way to others on the same crease; vertices where creases meet or end stay.
+// Deterministic. CANCELLED: callbacks.cancelled says so; it is called every few milliseconds.
 absl::StatusOr<Mesh> simplify(const Mesh& mesh, double max_error, const MeshCallbacks& callbacks);
 
 }  // namespace isofield::engine

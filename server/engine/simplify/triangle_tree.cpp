@@ -11,11 +11,11 @@ namespace {
 using blobtree::dvec3;
 
 constexpr std::size_t kLeafTriangles = 4;
-// Above the leaf where one was found last: where the next is looked for first.
+// The next search looks first below the node that lies this many levels above the leaf of the triangle found last.
 constexpr int kLevelsBeside = 8;
 constexpr float kFar = std::numeric_limits<float>::max();
 
-// The lower 21 bits of x, two zeros after each.
+// Returns the lower 21 bits of x, with two zeros between them.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffff;
   x = (x | x << 16) & 0x1f0000ff0000ff;
@@ -24,8 +24,8 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249;
 }
 
-// Whether p lies within the root of `limit` of triangle a b c, which faces along n. In its plane p lies over it, or one
-// of its edges is nearest.
+// Returns true if the squared distance of p from the triangle a b c, whose normal is n, is at most `limit`. Seen along
+// n, either p lies over the triangle, or an edge is the nearest part of it.
 bool is_near(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& n, double limit) {
   const double height = dot(p - a, n);
   if (height * height > limit * dot(n, n)) return false;
@@ -82,7 +82,7 @@ TriangleTree::TriangleTree(std::span<const float> positions, std::span<const Tri
 std::optional<std::uint32_t> TriangleTree::find(const dvec3& p, const dvec3& facing, double cosine, double distance) {
   const Wanted wanted{p, facing, cosine * cosine * dot(facing, facing), distance * distance};
   if (const auto found = find_in_leaf(last_leaf_, wanted)) return found;
-  // Points come one beside another: mostly the triangle is near the last.
+  // Consecutive points lie near each other, and so mostly do their triangles.
   const std::size_t beside = (leaves_ + last_leaf_) >> kLevelsBeside;
   if (beside > 1) {
     if (const auto found = find_below(beside, wanted)) return found;
@@ -97,7 +97,7 @@ std::optional<std::uint32_t> TriangleTree::find_below(std::size_t top, const Wan
                   off(box.low[2], box.high[2], wanted.p.z)};
     return dot(d, d);
   };
-  // The nearer of two children first: it is likely to end the search.
+  // The nearer of two children is searched first, since it is likely to end the search.
   std::array<std::size_t, 64> stack;
   std::size_t depth = 0;
   if (distance2(boxes_[top]) <= wanted.distance2) stack[depth++] = top;

@@ -3,13 +3,13 @@
 namespace isofield::engine {
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNoEdge = ~0u;
 
-// Edges are numbered 2 sample + axis, by their lower sample.
+// Traces the lines. An edge between two samples has the number 2 s + axis, with s the number of its lower sample.
 class Tracer {
  public:
   Tracer(std::span<const float> values, std::array<std::uint32_t, 2> counts, float level)
-      : values_(values), counts_(counts), level_(level), next_(2 * values.size(), kNone), has_before_(next_.size()) {}
+      : values_(values), counts_(counts), level_(level), next_(2 * values.size(), kNoEdge), has_before_(next_.size()) {}
 
   Polylines run() {
     for (std::uint32_t j = 0; j + 1 < counts_[1]; ++j) {
@@ -17,19 +17,19 @@ class Tracer {
     }
     lines_.starts.push_back(0);
     for (std::uint32_t edge = 0; edge < next_.size(); ++edge) {
-      if (next_[edge] != kNone && !has_before_[edge]) follow(edge);
+      if (next_[edge] != kNoEdge && !has_before_[edge]) follow(edge);
     }
     for (std::uint32_t edge = 0; edge < next_.size(); ++edge) {
-      if (next_[edge] != kNone) follow(edge);
+      if (next_[edge] != kNoEdge) follow(edge);
     }
     return std::move(lines_);
   }
 
  private:
-  // The curve's pieces within a square.
+  // Notes the pieces of the curve within a square.
   void link(std::uint32_t i, std::uint32_t j) {
     const std::uint32_t low = j * counts_[0] + i, up = low + counts_[0];
-    // Counter-clockwise; edge k leads from corner k to the next.
+    // Corners and edges go counter-clockwise; edge k leads from corner k to the next.
     const std::array<std::uint32_t, 4> corners{low, low + 1, up + 1, up};
     const std::array<std::uint32_t, 4> edges{2 * low, 2 * (low + 1) + 1, 2 * up, 2 * low + 1};
     const auto above = [&](std::uint32_t k) { return values_[corners[k % 4]] > level_; };
@@ -55,10 +55,10 @@ class Tracer {
 
   void follow(std::uint32_t first) {
     std::uint32_t edge = first;
-    while (edge != kNone) {
+    while (edge != kNoEdge) {
       add(edge);
       const std::uint32_t next = next_[edge];
-      next_[edge] = kNone;
+      next_[edge] = kNoEdge;
       edge = next;
     }
     lines_.starts.push_back(static_cast<std::uint32_t>(lines_.points.size() / 2));
@@ -76,7 +76,7 @@ class Tracer {
   const std::span<const float> values_;
   const std::array<std::uint32_t, 2> counts_;
   const float level_;
-  std::vector<std::uint32_t> next_;  // of the edges that the curve crosses; taken away as it is followed
+  std::vector<std::uint32_t> next_;  // the next edge that the curve crosses after each; removed as it is followed
   std::vector<bool> has_before_;
   Polylines lines_;
 };

@@ -24,13 +24,13 @@ void append(std::vector<float>& xyz, const dvec3& p) {
 }
 
 // A ray that has not met the surface yet.
-struct Walker {
-  std::uint32_t number;  // of the batch
-  Ray ray;               // of unit direction
-  RaySpan ahead;         // what it has not been walked through
-  double start;          // where it is looked at first
-  double last;           // where the field was looked at last
-  double excess;         // there
+struct RayWalker {
+  std::uint32_t number;  // the ray's number in the batch
+  Ray ray;               // its direction has unit length
+  RaySpan ahead;         // the stretch that is still to be walked
+  double start;          // the point at which the field is evaluated first
+  double last;           // the point at which the field was evaluated last
+  double excess;         // IsoLevel::excess at `last`
   bool is_inside;
 };
 
@@ -49,7 +49,7 @@ class Cast {
     const blobtree::Box& b = index.box;
     const double reach = std::max({std::abs(b.min.x), std::abs(b.min.y), std::abs(b.min.z), std::abs(b.max.x),
                                    std::abs(b.max.y), std::abs(b.max.z)});
-    // Below a step of float32 there is nothing to find.
+    // A tolerance finer than the steps of float32 would gain nothing.
     tolerance_ = std::max(kRayTolerance * index.cell_size, 0x1p-23 * reach);
   }
 
@@ -76,7 +76,7 @@ class Cast {
   }
 
  private:
-  // Whether each ray begins inside, and which ones come near the scene.
+  // Finds the rays that come near the scene, and whether each of them begins inside.
   absl::Status start(std::size_t first, std::size_t end) {
     xyz_.clear();
     const std::size_t before = walkers_.size();
@@ -90,7 +90,7 @@ class Cast {
     }
     ISOFIELD_RETURN_IF_ERROR(evaluate());
     for (std::size_t n = before; n < walkers_.size(); ++n) {
-      Walker& w = walkers_[n];
+      RayWalker& w = walkers_[n];
       w.excess = level_.excess(values_[n - before]);
       w.is_inside = w.excess > 0;
       hits_.inside[w.number] = w.is_inside;
@@ -98,16 +98,16 @@ class Cast {
     return absl::OkStatus();
   }
 
-  // One round: every ray some bricks further.
+  // Runs one round: every ray advances by some bricks.
   absl::Status advance() {
     const gpu::DeviceProfile& most = fields_.profile();
     const std::size_t bricks =
         std::clamp<std::size_t>(most.round_bricks / walkers_.size(), 1, most.round_bricks_per_ray);
     xyz_.clear();
     samples_.clear();
-    std::vector<std::size_t> ends;  // of the walkers' samples
+    std::vector<std::size_t> ends;  // the end of each walker's samples
     std::vector<bool> is_last;
-    for (Walker& w : walkers_) {
+    for (RayWalker& w : walkers_) {
       spans_.clear();
       is_last.push_back(index_.tree.walk(w.ray, w.ahead, bricks, spans_) < bricks);
       look_through(w, is_last.back());
@@ -116,7 +116,7 @@ class Cast {
     ISOFIELD_RETURN_IF_ERROR(evaluate());
     std::size_t kept = 0, at = 0;
     for (std::size_t i = 0; i < walkers_.size(); ++i) {
-      Walker& w = walkers_[i];
+      RayWalker& w = walkers_[i];
       const bool has_crossed = cross(w, at, ends[i]);
       at = ends[i];
       if (!has_crossed && !is_last[i]) walkers_[kept++] = w;
@@ -125,9 +125,9 @@ class Cast {
     return absl::OkStatus();
   }
 
-  // Samples a walker's new spans: at their ends, and in between at multiples of a cell from its start, so that it does
-  // not depend on the batch how far a ray gets in a round. Spans of two rounds may touch.
-  void look_through(Walker& w, bool is_last) {
+  // Samples a walker's new spans at their ends and, in between, at multiples of a cell from its start. So the samples
+  // are the same however far the ray gets in a round, which depends on the batch. Spans of two rounds may touch.
+  void look_through(RayWalker& w, bool is_last) {
     double last = w.last;
     const auto sample_at = [&](double t) {
       if (t > last) sample(w.ray, last = t);
@@ -151,8 +151,8 @@ class Cast {
     append(xyz_, ray.point(t));
   }
 
-  // Looks through a walker's samples of this round.
-  bool cross(Walker& w, std::size_t begin, std::size_t end) {
+  // Looks through a walker's samples of this round; returns true if it has crossed the surface.
+  bool cross(RayWalker& w, std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       const double excess = level_.excess(values_[n]);
       if ((excess > 0) != w.is_inside) {
@@ -165,7 +165,7 @@ class Cast {
     return false;
   }
 
-  // One round: every crossing is bracketed more narrowly.
+  // Runs one round: every crossing is bracketed more narrowly.
   absl::Status narrow() {
     xyz_.clear();
     for (Crossing& c : crossings_) {
@@ -179,7 +179,7 @@ class Cast {
     return absl::OkStatus();
   }
 
-  // Position, normal and node of every hit.
+  // Finds position, normal and node of every hit.
   absl::Status describe() {
     xyz_.clear();
     for (const Crossing& c : crossings_) append(xyz_, c.ray.point(c.root.root()));
@@ -195,10 +195,10 @@ class Cast {
       const auto [gx, gy, gz] = rows.gradient(n);
       const dvec3 outward = dvec3{gx, gy, gz} * -level_.inward();
       const double slope = length(outward);
-      // Where the gradient vanishes, the side that the ray is on.
+      // If the gradient vanishes, the normal lies along the ray and faces outwards.
       const dvec3 normal = slope > 0 ? outward * (1 / slope) : c.ray.direction * (hits_.inside[c.number] ? 1.0 : -1.0);
       float* const out = &hits_.normals[3 * std::size_t{c.number}];
-      // One zero: a -0 means nothing to a client.
+      // Adding 0 turns -0 into 0, because a -0 means nothing to a client.
       out[0] = static_cast<float>(normal.x) + 0.0f;
       out[1] = static_cast<float>(normal.y) + 0.0f;
       out[2] = static_cast<float>(normal.z) + 0.0f;
@@ -221,9 +221,9 @@ class Cast {
   double tolerance_ = 0;
   RayHits hits_;
 
-  std::vector<Walker> walkers_;
+  std::vector<RayWalker> walkers_;
   std::vector<Crossing> crossings_;
-  // Of a round.
+  // The spans, sample places, points and values of the present round.
   std::vector<RaySpan> spans_;
   std::vector<double> samples_;
   std::vector<float> xyz_, values_;

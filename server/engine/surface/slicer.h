@@ -1,4 +1,4 @@
-// The field on a plane, with its level curves.
+// Evaluates the field of a scene on a plane, and finds its level curves there.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -13,18 +13,19 @@
 
 namespace isofield::engine {
 
-// Points origin + (i spacing[0]) u + (j spacing[1]) v, computed in double and rounded to float32.
+// The points origin + (i spacing[0]) u + (j spacing[1]) v, which are computed in double and rounded to float32.
 struct Plane {
-  blobtree::dvec3 origin, u, v;  // u, v: of unit length
+  blobtree::dvec3 origin, u, v;  // u and v have unit length
   std::array<double, 2> spacing{};
   std::array<std::uint32_t, 2> counts{};
 };
 
 struct Slice {
   std::vector<float> values;     // i fastest
-  std::vector<Polylines> lines;  // of each level, in model units along u and v from the origin
+  std::vector<Polylines> lines;  // for each level, in model units along u and v from the origin
 };
 
+// Errors are those of FieldEvaluator::evaluate().
 absl::StatusOr<Slice> slice(FieldEvaluator& fields, const ResidentScene& scene, const Plane& plane,
                             std::span<const double> levels, const FieldEvaluator::Cancelled& cancelled = {});
 

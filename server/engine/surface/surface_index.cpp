@@ -7,7 +7,7 @@
 namespace isofield::engine {
 namespace {
 
-// Bricks of all indices that are kept, some 20 bytes each.
+// The most bricks of all indices that are kept; a brick takes some 20 bytes.
 constexpr std::size_t kMostBricks = 1u << 21;
 constexpr std::size_t kMostEntries = 64;
 

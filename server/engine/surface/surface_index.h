@@ -1,4 +1,5 @@
-// Where the surface of a resident scene lies: the bricks that it may cross, ready to be walked by rays.
+// A SurfaceIndex says where the surface of a resident scene may lie: it is a tree of the bricks that the surface may
+// cross, ready to be walked by rays.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -13,12 +14,12 @@
 
 namespace isofield::engine {
 
-// The surface f = iso, looked at on a lattice of cells as a mesh of it is.
+// The surface f = iso, and the lattice of cells on which it is looked for, as for a mesh.
 struct SurfaceRequest {
   double iso = 0.5;
-  // Edge length of a cell. Absent: automatic_cell_size().
+  // Edge length of a cell, in model units. If absent, it is automatic_cell_size().
   std::optional<double> cell_size;
-  // Absent: nothing is cut.
+  // Only the surface within these bounds counts. If absent, all of it counts.
   std::optional<blobtree::Box> bounds;
   std::uint64_t max_cells = 1u << 25;
 
@@ -27,14 +28,15 @@ struct SurfaceRequest {
 
 struct SurfaceIndex {
   double cell_size = 0;
-  blobtree::Box box;  // of the lattice; of the bounds where they are stated
+  blobtree::Box box;  // the stated bounds, or else the box of the lattice
   blobtree::BrickTree tree;
 };
 
-// Keeps the indices that were used last. Thread-safe; two threads that want the same new one may both make it.
+// Keeps the indices that were used most recently. Thread-safe; two threads that want the same new index may both make
+// it.
 class SurfaceIndexCache {
  public:
-  // RESOURCE_EXHAUSTED: as surface_bricks().
+  // Returns the index, and makes it if need be. RESOURCE_EXHAUSTED: as for surface_bricks().
   absl::StatusOr<std::shared_ptr<const SurfaceIndex>> get(const SceneLease& scene, const SurfaceRequest& request,
                                                           const std::function<bool()>& cancelled);
 

@@ -19,9 +19,9 @@ struct Depth {
   double value, slope;
 };
 
-// With f = (1 - r^2)^3 of a positive primitive, r is linear in the distance to it: one step of Newton's method on r
-// then finds its surface from anywhere, where the field itself flattens out towards its ends. Above 0.99, where only
-// sums and blends lead beyond 1, straight on.
+// Returns r for the field f = (1 - r^2)^3 of a positive primitive. r is linear in the distance to the primitive, so
+// that one step of Newton's method on r finds its surface from anywhere, whereas the field itself flattens out towards
+// its ends. Above 0.99 the function goes straight on, since sums and blends lead beyond 1.
 Depth radius_of(double f) {
   const double v = std::min(f, 0.99), root = std::cbrt(v), r = std::sqrt(1 - root);
   const double slope = -1 / (6 * root * root * r);
@@ -35,11 +35,11 @@ Depth depth_of(double f, const IsoLevel& level) {
   return {radius.value - radius_of(level.iso).value, radius.slope};
 }
 
-// A point on its way.
-struct Walker {
+// A point on its way to the surface.
+struct PointWalker {
   std::uint32_t number;
-  dvec3 at, step;  // where it is looked at now, and how it came there
-  dvec3 best;      // nearest so far; where the step began
+  dvec3 at, step;  // the point where the field is evaluated next, and the step that led there
+  dvec3 best;      // the nearest point so far, at which the step began
   double best_depth = std::numeric_limits<double>::infinity();
 };
 
@@ -48,7 +48,7 @@ dvec3 rounded(const dvec3& p) {
 }
 
 void store(std::vector<float>& rows, std::size_t i, const dvec3& v) {
-  // One zero: a -0 means nothing to a client.
+  // Adding 0 turns -0 into 0, because a -0 means nothing to a client.
   rows[3 * i] = static_cast<float>(v.x) + 0.0f;
   rows[3 * i + 1] = static_cast<float>(v.y) + 0.0f;
   rows[3 * i + 2] = static_cast<float>(v.z) + 0.0f;
@@ -77,7 +77,7 @@ class Projection {
     return xyz;
   }
 
-  // `fields`: value and gradient at points().
+  // Moves every walker by a step. `fields` has the value and the gradient at points().
   void advance(const ResultRows& fields) {
     std::size_t kept = 0;
     for (std::size_t n = 0; n < walkers_.size(); ++n) {
@@ -88,16 +88,16 @@ class Projection {
   }
 
  private:
-  // False: it stays where it is.
-  bool advance(Walker& w, double f, const dvec3& gradient) {
+  // Returns false if the walker has arrived, or can get no further.
+  bool advance(PointWalker& w, double f, const dvec3& gradient) {
     const Depth depth = depth_of(f, level_);
     const double size = std::abs(depth.value), slope = length(gradient);
     const dvec3 begin = w.best;
     if (!(slope * std::abs(depth.slope) > 0)) {
-      // Stepped out of the field's reach, or never was in it.
+      // The point stepped out of the field's reach, or never was in it.
       return w.best_depth < std::numeric_limits<double>::infinity() && halve(w, begin);
     }
-    // Not nearer: half of the way, which crosses no more of the surface.
+    // The step did not lead nearer. Half of it crosses no more of the surface than the whole.
     if (!(size < w.best_depth) && size > 0) return halve(w, begin);
     w.best = w.at;
     w.best_depth = size;
@@ -114,14 +114,14 @@ class Projection {
     return settle(w);
   }
 
-  bool halve(Walker& w, const dvec3& begin) {
+  bool halve(PointWalker& w, const dvec3& begin) {
     w.step = w.step * 0.5;
     w.at = rounded(begin + w.step);
     return settle(w);
   }
 
-  // False: float32 has no point nearer to the surface.
-  bool settle(Walker& w) {
+  // Returns false if float32 has no point that is nearer to the surface.
+  bool settle(PointWalker& w) {
     const bool moves = w.at != w.best;
     const dvec3& b = w.best;
     const double resolution = 0x1p-22 * std::max({std::abs(b.x), std::abs(b.y), std::abs(b.z)});
@@ -132,7 +132,7 @@ class Projection {
   const ProjectionRequest& request_;
   const IsoLevel level_;
   const std::size_t count_;
-  std::vector<Walker> walkers_;
+  std::vector<PointWalker> walkers_;
   Projections result_;
 };
 

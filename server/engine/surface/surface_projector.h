@@ -1,4 +1,4 @@
-// Projects points onto the surface of a scene, along the field's gradient.
+// SurfaceProjector projects points onto the surface of a scene, along the field's gradient.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -15,10 +15,10 @@ namespace isofield::engine {
 struct ProjectionRequest {
   std::span<const float> points;  // 3 finite numbers a point
   double iso = 0.5;
-  double tolerance = 0;  // model units, > 0: of the residual
+  double tolerance = 0;  // the largest residual that counts as on the surface; model units, > 0
 };
 
-// A number, or 3, a point.
+// Each member has one number, or 3, for each point.
 struct Projections {
   std::vector<float> positions;
   std::vector<float> normals;    // unit length, outward; 0, 0, 0 where the gradient vanishes
@@ -26,13 +26,14 @@ struct Projections {
   std::vector<std::uint8_t> converged;  // 1: the residual is at most the tolerance, or float32 can do no better
 };
 
-// Newton's method on what the field says of the distance, held back where it does not get nearer; all points of a batch
-// take a step at once. Thread-safe.
+// Runs Newton's method on a function of the field that is nearly linear in the distance. A step that does not lead
+// nearer to the surface is halved. All points of a batch take a step at once. Thread-safe.
 class SurfaceProjector {
  public:
   explicit SurfaceProjector(FieldEvaluator& fields) : fields_(fields) {}
 
-  // A point where the gradient vanishes, such as one out of the reach of all primitives, stays where it is.
+  // A point at which the gradient vanishes, such as one out of the reach of all primitives, stays where it is. Errors
+  // are those of FieldEvaluator::evaluate().
   absl::StatusOr<Projections> project(const ResidentScene& scene, const ProjectionRequest& request,
                                       const FieldEvaluator::Cancelled& cancelled = {});
 

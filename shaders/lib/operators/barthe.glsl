@@ -1,11 +1,11 @@
-// Barthe's blend: server/operators/barthe.h.
+// Barthe's blend, [G] eqs. 12 and 13. Mirrors server/operators/barthe.h.
 #ifndef BARTHE_GLSL
 #define BARTHE_GLSL
 
 #include "joining.glsl"
 #include "steering.glsl"
 
-// [G] eqs. 12 and 13; t = tan(theta).
+// Returns the blend with t1 = tan(theta1) and t2 = tan(theta2).
 Binary barthe_blend(Dual f1, Dual f2, float t1, float t2) {
   bool swap = value_of(f1) < value_of(f2);
   Dual hi = select_dual(f1, f2, swap), lo = select_dual(f2, f1, swap);

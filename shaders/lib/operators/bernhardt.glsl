@@ -1,4 +1,4 @@
-// Bernhardt's operator: server/operators/bernhardt.h.
+// Bernhardt's operator, a weighted mean of the clean union and Barthe's blend. Mirrors server/operators/bernhardt.h.
 #ifndef BERNHARDT_GLSL
 #define BERNHARDT_GLSL
 

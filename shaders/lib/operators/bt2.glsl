@@ -1,4 +1,4 @@
-// The conic blend of two operands with individual ranges: server/operators/bt2.h.
+// BT2, the conic blend of two operands with individual ranges, [H] eq. 4. Mirrors server/operators/bt2.h.
 #ifndef BT2_GLSL
 #define BT2_GLSL
 
@@ -6,10 +6,10 @@
 #include "joining.glsl"
 #include "parameters.glsl"
 
-// [H] eq. 4 as server/operators/bt2.h has it. Where one operand alone makes the result it is x_i / m_i to the
-// bit, as it is where culling has dropped the other.
+// Returns BT2 in the form that server/operators/bt2.h derives. If one operand alone makes the result, that is x_i /
+// m_i, the same bits as where culling has dropped the other operand.
 Binary bt2(Dual x1, Dual x2, Reach2 reach, float tightness, vec2 inverse_weights) {
-  // Weights that follow the gradients are divided by; constant ones have their inverse.
+  // Constant weights come with their inverse; weights that follow the gradients are inverted here.
   Dual i1 = inverse_weights.x > 0.0 ? dual(inverse_weights.x) : reciprocal(reach.m1);
   Dual i2 = inverse_weights.y > 0.0 ? dual(inverse_weights.y) : reciprocal(reach.m2);
   x1 = times(x1, i1);
@@ -40,7 +40,7 @@ Binary bt2(Dual x1, Dual x2, Reach2 reach, float tightness, vec2 inverse_weights
   return select_binary(r, Binary(x1, i1, dual(0.0)), first);
 }
 
-// `angle` counts where the operator follows it.
+// The operator uses `angle` only if its ranges follow the angle.
 Field unite_bt2(Field a, Field b, uint record, Angle angle) {
   vec4 head = operation_at(record), w1 = operation_at(record + 1u), w2 = operation_at(record + 2u);
   Reach2 reach = Reach2(dual(head.x), dual(head.y), dual(w1.z), dual(w2.z));
@@ -52,7 +52,7 @@ Field unite_bt2(Field a, Field b, uint record, Angle angle) {
   return join_signed(a, b, bt2(dual_of(a), dual_of(b), reach, head.z, inverse_weights));
 }
 
-// Where gradients are aligned ranges that follow their angle vanish.
+// Ranges that follow an angle almost vanish where the gradients are aligned, which leaves a seam there.
 bool makes_seams_bt2(uint record) { return may_follow_angle() && operation_at(record).w >= 0.0; }
 
 #endif

@@ -1,4 +1,4 @@
-// The super-elliptic blend of many operands with individual ranges: server/operators/btk.h.
+// BTk, the super-elliptic blend of many operands with individual ranges, [H] eq. 5. Mirrors server/operators/btk.h.
 #ifndef BTK_GLSL
 #define BTK_GLSL
 
@@ -6,14 +6,14 @@
 #include "many.glsl"
 #include "powers.glsl"
 
-// One operand of a btk: its field, 1 / m, the power and the range. One that is absent has a range of 0.
+// One operand of a BTk: its field x, 1 / m, its range and its power. An absent operand has a range of 0.
 struct Term {
   Dual x, inverse_weight, range;
   float power;
 };
 
-// [H] eq. 5 by Newton's method from min x_i / m_i, from where it falls to the root and never beyond it. `partials` come
-// out with their derivatives.
+// Returns the root of [H] eq. 5, found by Newton's method from min x_i / m_i; from there the steps descend to the root
+// and never pass it. `partials` receives the partial derivatives, as duals.
 Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
   float h = 1e30;
   uint least = 0u;
@@ -33,9 +33,9 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
       float t = r > 0.0 ? 1.0 + (m * h - value_of(terms[i].x)) * inverse_r : 0.0;
       bool is_active = t > 0.0 && !(i == least && step == 0);
       is_blend = is_blend || is_active;
-      // The least operand's bracket is 1 at the start, whatever the rounding says.
+      // The least operand's bracket is exactly 1 at the start; rounding may have given something else.
       t = i == least && step == 0 ? 1.0 : t;
-      // The driver's powers are exact enough for a step; the last step is the one in duals.
+      // The driver's powers are exact enough for these steps, because the last step, in duals, uses power_of().
       float q = t > 0.0 ? exp2((terms[i].power - 1.0) * log2(t)) : 0.0;
       excess += q * max(t, 0.0);
       slope += terms[i].power * q * m * inverse_r;
@@ -44,7 +44,7 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
     if (!(next < h)) break;
     h = next;
   }
-  // A Newton step in duals gives the root its derivatives, ...
+  // A step of Newton's method in duals gives the derivatives of the root.
   Dual excess = dual(-1.0);
   float slope = 0.0;
   for (uint i = 0u; i < ARITY; ++i) {
@@ -58,7 +58,7 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
     slope += terms[i].power * q * value_of(m) * value_of(inverse_r);
   }
   Dual root = dual(h) - excess * (1.0 / max(slope, 1e-30));
-  // ... and a pass with these the partials theirs.
+  // A further pass with the dual root gives the derivatives of the partials.
   Dual total = dual(0.0);
   for (uint i = 0u; i < ARITY; ++i) {
     bool is_there = value_of(terms[i].range) > 0.0;
@@ -81,7 +81,6 @@ Dual btk(Term terms[MAX_OPERANDS], inout Dual partials[MAX_OPERANDS]) {
   return select_dual(single, root, is_blend);
 }
 
-// [H] eq. 5.
 Field unite_btk(Field x[MAX_OPERANDS], uint mask, uint record, Angle angle) {
   vec4 head = operation_at(record);
   Term terms[MAX_OPERANDS];

@@ -1,11 +1,12 @@
-// Barthe's clean union: server/operators/clean.h.
+// Barthe's clean union, [G] eqs. 9 and 10. Mirrors server/operators/clean.h.
 #ifndef CLEAN_GLSL
 #define CLEAN_GLSL
 
 #include "joining.glsl"
 #include "steering.glsl"
 
-// Written with the slope of k, which a Newton step multiplies.
+// The centre k of an arc of the union's level curve of value c, with its slope k_c = dk/dc, which Newton's method
+// needs.
 struct Centre {
   Dual k, k_c;
 };
@@ -16,18 +17,19 @@ Centre clean_union_centre(Dual c) {
                 select_dual(0.25 * reciprocal(select_dual(k, dual(1.0), value_of(k) <= 0.0)), 4.0 * c, is_low));
 }
 
-// [G] eqs. 9 and 10. Newton's method from the maximum, where the slope is between 1 and 2; on the arcs beside the sharp
-// edge it needs up to six steps. Lengths are measured in the greater field, so that no square underflows.
+// Returns the clean union by Newton's method from the maximum, where the slope is between 1 and 2. On the arcs beside
+// the sharp edge it needs up to six steps. Lengths are measured in units of the greater field, so that no square
+// underflows.
 Binary clean_union(Dual f1, Dual f2) {
   bool swap = value_of(f1) < value_of(f2);
   Dual hi = select_dual(f1, f2, swap), lo = select_dual(f2, f1, swap);
   float top = value_of(hi), low = value_of(lo);
   float centre = value_of(clean_union_centre(hi).k);
-  // At the edge the arcs have no radius.
+  // The arcs have no radius at the sharp edge, so the maximum is taken there.
   bool is_max = low <= centre || low <= 0.0 || top - centre <= 1e-6 * top;
   float unit = 1.0 / max(top, 1e-37);
   float c = top;
-  // Below the edge the arc ends where the centre meets the lesser field; beyond, the equation has a false root.
+  // The arc ends where the centre meets the lesser field; beyond that the equation has a false root.
   float limit = max(low < 0.5 ? sqrt(0.5 * max(low, 0.0)) : 2.0 * low * low, top);
   for (int step = 0; step < 7; ++step) {
     Centre at = clean_union_centre(dual(c));
@@ -37,7 +39,7 @@ Binary clean_union(Dual f1, Dual f2) {
     float slope = 1.0 - value_of(at.k_c) * (1.0 - (a + b) / m);
     c = clamp(c - (c - k - m * top) / slope, top, limit);
   }
-  // A step in duals gives the root its derivatives, a second pass the partials theirs.
+  // The first pass, a step in duals, gives the derivatives of the root; the second gives those of the partials.
   Dual root = dual(c), a, b, m, slope;
   for (int pass = 0; pass < 2; ++pass) {
     Centre at = clean_union_centre(root);
@@ -58,7 +60,7 @@ Field unite_clean(Field a, Field b, uint record, Angle angle) {
   return join_positive(a, b, clean_union(dual_of(a), dual_of(b)));
 }
 
-// It is sharp on the surface alone.
+// The clean union is sharp on the surface, and smooth elsewhere.
 bool makes_seams_clean(uint record) { return true; }
 
 #endif

@@ -1,11 +1,12 @@
-// Operators of one field: from one law to the other, and the factor 1 / weight where a blend has one operand left.
+// Operators of one field: conversions between positive and signed fields, and the factor 1 / weight that stays where
+// culling has left a blend with one operand.
 #ifndef CONVERSIONS_GLSL
 #define CONVERSIONS_GLSL
 
 #include "field.glsl"
 #include "parameters.glsl"
 
-// factor f + offset.
+// Returns factor f + offset.
 Field linear(Field a, float factor, float offset) {
   a.f = factor * a.f + offset;
   a.d *= factor;
@@ -16,7 +17,7 @@ Field linear(Field a, float factor, float offset) {
   return a;
 }
 
-// w(clamp(R0 + slope f, 0, 1)) of a signed field.
+// Returns w(clamp(R0 + slope f, 0, 1)) for a signed field f, which makes it positive.
 Field softened(Field a, float slope) {
   float r = clamp(R0 + slope * a.f, 0.0, 1.0);
   float v = 1.0 - r * r;

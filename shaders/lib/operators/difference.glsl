@@ -1,11 +1,12 @@
-// Differences of positive fields: server/operators/difference.h. Those of signed ones are minima of complements.
+// Differences of positive fields, mirroring server/operators/difference.h. Differences of signed fields are minima of
+// complements.
 #ifndef DIFFERENCE_GLSL
 #define DIFFERENCE_GLSL
 
 #include "sharp_union.glsl"
 #include "steering.glsl"
 
-// max(0, min(a, 1 - b)).
+// Returns max(0, min(a, 1 - b)).
 Field subtract(Field a, Field b) {
   b.f = 1.0 - b.f;
   b.d = -b.d;

@@ -1,4 +1,4 @@
-// Maxima: server/operators/max.h.
+// The maximum of two fields. Mirrors server/operators/max.h.
 #ifndef MAX_GLSL
 #define MAX_GLSL
 

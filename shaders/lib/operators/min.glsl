@@ -1,4 +1,4 @@
-// Minima: server/operators/min.h.
+// The minimum of two fields. Mirrors server/operators/min.h.
 #ifndef MIN_GLSL
 #define MIN_GLSL
 

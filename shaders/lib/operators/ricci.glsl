@@ -1,4 +1,4 @@
-// Ricci's blend: server/operators/ricci.h.
+// Ricci's blend, [G] eq. 11. Mirrors server/operators/ricci.h.
 #ifndef RICCI_GLSL
 #define RICCI_GLSL
 
@@ -6,7 +6,8 @@
 #include "powers.glsl"
 #include "steering.glsl"
 
-// (a^t + b^t)^(1/t), with the larger field taken out so that no power under- or overflows.
+// Returns (a^t + b^t)^(1/t). `exponent` holds t and 1/t. The larger field is factored out, so that no power overflows
+// or underflows.
 Field ricci(Field a, Field b, vec2 exponent) {
   float t = exponent.x;
   float hi = max(a.f, b.f), lo = min(a.f, b.f);
@@ -14,11 +15,11 @@ Field ricci(Field a, Field b, vec2 exponent) {
   float power = ratio > 0.0 ? power_of(ratio, 0.0, t) : 0.0;
   float growth = power > 0.0 ? power_of(1.0 + power, 0.0, exponent.y) : 1.0;
   float g = hi * growth;
-  // The partials (a/g)^(t - 1) and (b/g)^(t - 1): of the larger field growth^(1 - t).
+  // The partials are (a/g)^(t - 1) and (b/g)^(t - 1); for the larger field that is growth^(1 - t).
   float w_hi = growth / (1.0 + power), w_lo = ratio > 0.0 ? w_hi * (power / ratio) : 0.0;
   float inverse = g > 0.0 ? 1.0 / g : 0.0;
   float x = a.f * inverse, y = b.f * inverse;
-  // At t = 1 both are 1.
+  // Both are exactly 1 for t = 1, the sum.
   float x1 = t == 1.0 ? 1.0 : a.f < b.f ? w_lo : w_hi, y1 = t == 1.0 ? 1.0 : a.f < b.f ? w_hi : w_lo;
   Field r = zero_field();
   r.f = g;

@@ -1,4 +1,4 @@
-// The quadratic smooth minimum: server/operators/smooth_min.h.
+// The quadratic smooth minimum. Mirrors server/operators/smooth_min.h.
 #ifndef SMOOTH_MIN_GLSL
 #define SMOOTH_MIN_GLSL
 
@@ -11,7 +11,7 @@ Binary smooth_min(Dual x1, Dual x2, float radius, float inverse_radius) {
   Dual least = select_dual(x1, x2, swap), apart = select_dual(x2, x1, swap) - least;
   Dual h = dual(1.0) - inverse_radius * apart;
   h = select_dual(h, dual(0.0), value_of(h) <= 0.0);
-  // Where h is 0 the lesser operand comes out to the bit.
+  // If h is 0, the result is the lesser operand, to the bit.
   Binary r = Binary(least - (0.25 * radius) * times(h, h), dual(1.0) - 0.5 * h, 0.5 * h);
   return select_binary(r, exchanged(r), swap);
 }

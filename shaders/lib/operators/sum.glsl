@@ -1,4 +1,4 @@
-// Sums: server/operators/sum.h.
+// The sum of two fields. Mirrors server/operators/sum.h.
 #ifndef SUM_GLSL
 #define SUM_GLSL
 

@@ -1,4 +1,4 @@
-// The super-elliptic blend: server/operators/superelliptic.h.
+// The super-elliptic blend, [G] eq. 4. Mirrors server/operators/superelliptic.h.
 #ifndef SUPERELLIPTIC_GLSL
 #define SUPERELLIPTIC_GLSL
 
@@ -6,19 +6,20 @@
 #include "many.glsl"
 #include "powers.glsl"
 
+// The term [1 - x/r]_+^t of one operand, and minus its derivative by x.
 struct Bracket {
   Dual value, fall;
 };
-// Returns what the rounded quotient q of x and r lacks of the exact one, since an exponent t multiplies q's relative
-// error. It comes from the exact product of q and r, by their leading bits.
+// Returns the exact quotient x / r minus its rounded value q; the exponent t multiplies the relative error of q, so it
+// has to be corrected. The remainder comes from the exact product of q and r, computed in parts of 12 bits.
 float missing_of_quotient(float q, float x, float r, float inverse_r) {
   precise float q1 = leading(q), q2 = q - q1, r1 = leading(r), r2 = r - r1;
   precise float rest = ((x - q1 * r1) - q1 * r2) - q2 * r;
   return rest * inverse_r;
 }
 
-// [1 - x/r]_+^t and minus its derivative. Above u = 1 - x/r = deepest, where the power is 1e12, it goes on straight;
-// `deepest` has that and, as a part of it, what it lacks.
+// Returns the term of one operand. Above u = 1 - x/r = deepest, where the power is 1e12, it continues linearly.
+// `deepest` holds that limit as a float and the relative error of this float.
 Bracket superelliptic_bracket(Dual x, Dual range, float t, vec2 deepest) {
   Dual inverse = reciprocal(range);
   Dual q = times(x, inverse), u = dual(1.0) - q;
@@ -37,7 +38,6 @@ Bracket superelliptic_bracket(Dual x, Dual range, float t, vec2 deepest) {
   return Bracket(select_dual(b.value, dual(0.0), is_out), select_dual(b.fall, dual(0.0), is_out));
 }
 
-// [G] eq. 4.
 Field unite_superelliptic(Field x[MAX_OPERANDS], uint mask, uint record, Angle angle) {
   vec4 head = operation_at(record);
   bool by_angle = may_follow_angle() && head.y >= 0.0;

@@ -1,4 +1,4 @@
-// Boxes: server/blobtree/primitives/box.h.
+// Boxes with rounded edges. Mirrors server/blobtree/primitives/box.h.
 #ifndef BOX_GLSL
 #define BOX_GLSL
 

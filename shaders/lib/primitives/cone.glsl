@@ -1,11 +1,11 @@
-// Cones with flat ends: server/blobtree/primitives/cone.h.
+// Cones with flat ends. Mirrors server/blobtree/primitives/cone.h.
 #ifndef CONE_GLSL
 #define CONE_GLSL
 
 #include "distance.glsl"
 
-// `size` holds half the length and the radii at the lower and at the upper end, `side` the outward normal (rho, z) and
-// the length of the side's line in the half-plane of (rho, z).
+// The distance to a cone around the z axis. `size` holds half the length and the radii at the lower and the upper end.
+// `side` holds the outward normal of the side's line in the half-plane of (rho, z), and the length of that line.
 Distance cone_distance(vec3 q, vec3 size, vec3 side) {
   float rho = length(q.xy);
   vec2 from_a = vec2(rho - size.y, q.z + size.x), from_b = vec2(rho - size.z, q.z - size.x);
@@ -16,7 +16,7 @@ Distance cone_distance(vec3 q, vec3 size, vec3 side) {
   bool at_a = is_beside && along_side <= 0.0, at_b = is_beside && !at_a && along_side >= side.z;
   vec2 from_rim = at_a ? from_a : from_b;
   float m = length(from_rim), inverse_m = at_a || at_b ? safe_inverse(m) : 0.0;
-  // The face that the distance is from where no rim is the nearest: inside, the one that is least deep.
+  // The face that the distance is measured to if no rim is nearest. For a point inside it is the nearest face.
   bool is_side = is_beside || (deepest <= 0.0 && off_side >= deepest);
   bool is_top = is_above || (!is_below && from_b.y >= deepest);
   vec2 face = is_side ? side.xy : vec2(0.0, is_top ? 1.0 : -1.0);

@@ -1,4 +1,4 @@
-// Cylinders: server/blobtree/primitives/cylinder.h.
+// Cylinders with flat ends. Mirrors server/blobtree/primitives/cylinder.h.
 #ifndef CYLINDER_GLSL
 #define CYLINDER_GLSL
 

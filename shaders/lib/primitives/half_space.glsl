@@ -1,4 +1,4 @@
-// Half-spaces: server/blobtree/primitives/half_space.h.
+// Half-spaces. Mirrors server/blobtree/primitives/half_space.h.
 #ifndef HALF_SPACE_GLSL
 #define HALF_SPACE_GLSL
 

@@ -1,10 +1,11 @@
-// Round cones: server/blobtree/primitives/segment.h.
+// Round cones (segments). Mirrors server/blobtree/primitives/segment.h.
 #ifndef SEGMENT_GLSL
 #define SEGMENT_GLSL
 
 #include "primitives/sphere.glsl"
 
-// A round cone from the origin along the unit vector `axis`: the sphere of its family that the point sees.
+// The distance to a round cone from the origin along the unit vector `axis`. It is the distance to the nearest of the
+// spheres that span the cone.
 Distance segment_distance(vec3 v, vec3 axis, float len, float radius, float slope, float tan_tilt) {
   float y = dot(v, axis);
   vec3 across = v - y * axis;
@@ -13,7 +14,8 @@ Distance segment_distance(vec3 v, vec3 axis, float len, float radius, float slop
   float foot = clamp(c, 0.0, len);
   Distance s = sphere_distance(v - foot * axis, radius + slope * foot);
 #ifdef WITH_GRADIENT
-  // Along the cone the distance is flat: take the curvature along its generatrix out.
+  // The distance does not curve along a straight line of the cone (a generatrix), so that part of the sphere's
+  // curvature is removed.
   bool on_cone = c > 0.0 && c < len;
   vec3 t = (axis + slope * s.n) * inversesqrt(max(1.0 - slope * slope, 1e-12));
   float m = length(v - foot * axis);

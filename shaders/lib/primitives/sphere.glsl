@@ -1,10 +1,11 @@
-// Spheres, and ellipsoids, which are spheres under an affine map: server/blobtree/primitives/{sphere,ellipsoid}.h.
+// Spheres, and ellipsoids, which are spheres under an affine map. Mirrors
+// server/blobtree/primitives/{sphere,ellipsoid}.h.
 #ifndef SPHERE_GLSL
 #define SPHERE_GLSL
 
 #include "distance.glsl"
 
-// Distance to the sphere around the origin of a space, with the unit direction.
+// The distance to a sphere around the origin.
 Distance sphere_distance(vec3 v, float radius) {
   Distance s;
   float m = length(v);

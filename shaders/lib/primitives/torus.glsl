@@ -1,4 +1,4 @@
-// Tori: server/blobtree/primitives/torus.h.
+// Tori. Mirrors server/blobtree/primitives/torus.h.
 #ifndef TORUS_GLSL
 #define TORUS_GLSL
 
