@@ -19,7 +19,8 @@ std::string shells(std::uint64_t bodies, std::uint64_t voids) {
   return voids == 0 ? text : absl::StrCat(text, ", ", count(voids, "void", "voids"));
 }
 
-// Down, so that a cell of this size is no coarser than the one that would do.
+// Returns a size with three digits for a message. It is rounded down, so that a cell of this size is no coarser than
+// the one that is needed.
 std::string rounded_down(double size) {
   const double unit = std::pow(10, std::floor(std::log10(size)) - 2);
   return absl::StrFormat("%g", std::floor(size / unit * (1 + 1e-12)) * unit);

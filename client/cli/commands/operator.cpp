@@ -57,7 +57,7 @@ absl::Status put(const Context& context, const std::string& file, const std::str
                      client->put_operator(name.empty() ? name_for(file) : name, *std::move(message)));
 }
 
-// Of the kind that an operator is.
+// Returns the parameters that operators of this kind have.
 std::vector<Parameter> parameters_of(const v1::Operator& message) {
   const auto* kinds = v1::Operator::descriptor()->FindOneofByName("kind");
   const auto* kind = message.GetReflection()->GetOneofFieldDescriptor(message, kinds);

@@ -31,7 +31,7 @@ absl::StatusOr<std::vector<std::string>> columns_for(const OperatorArgument& op,
       absl::StrCat("the columns are ", excerpt(absl::StrJoin(header, ", ")), "; expected alpha (radians)"));
 }
 
-// Nine significant digits give a float32 back to the bit.
+// Appends the results as lines of text. Nine significant digits give a float32 back to the bit.
 void append_rows(const OperatorValues& results, std::string& text) {
   const std::size_t columns = results.columns.size();
   for (std::size_t i = 0; i < results.values.size(); ++i) {

@@ -43,7 +43,7 @@ void add_project_command(CLI::App& app, Context& context) {
           table.add_vectors({"nx", "ny", "nz"}, found->normals);
           table.add("converged", std::span<const std::uint8_t>(found->converged));
           table.add("residual", std::span<const float>(found->residuals));
-          // Where the gradient vanishes the residual is infinite.
+          // The residual is infinite where the gradient vanishes.
           std::vector<std::uint8_t> out_of_reach;
           for (std::size_t i = 0; i < found->residuals.size(); ++i) {
             out_of_reach.push_back(found->converged[i] == 0 && std::isinf(found->residuals[i]) ? 1 : 0);
