@@ -25,7 +25,7 @@ def unit(v):
 
 
 def wander(direction, amount, pull=(0, 0, 0)):
-    # Noise is smaller along z, so that the cell is flat and a picture from the front shows most of it.
+    # Directions vary less along z, so that the cell is flatter along z than it is wide, which suits pictures.
     noise = (random.gauss(0, amount), random.gauss(0, amount), random.gauss(0, 0.6 * amount))
     return unit(tuple(d + n + p for d, n, p in zip(direction, noise, pull)))
 

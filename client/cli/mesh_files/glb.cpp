@@ -16,7 +16,7 @@ namespace {
 
 // Lengths in a GLB are 32-bit.
 constexpr std::uint64_t kMaxBytes = std::numeric_limits<std::uint32_t>::max();
-// Constants of the specification.
+// These constants come from the specification.
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
 std::string quoted(const std::string& text) {

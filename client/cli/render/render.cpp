@@ -167,7 +167,7 @@ absl::StatusOr<Image> render(const Mesh& mesh, const RenderOptions& options) {
   if (mesh.normals.size() != mesh.positions.size()) return absl::InvalidArgumentError("the mesh has no normals");
   const Camera camera = fit_camera(mesh.positions, options.view, static_cast<double>(options.width) / options.height);
   const Visibility seen = rasterize(mesh, camera, kSupersampling * options.width, kSupersampling * options.height);
-  // The model fills the picture, so the picture's extent at its middle is the model's.
+  // The picture's extent at the model's middle; a model that fills the picture has about the same extent.
   const float extent = (camera.near + camera.far) * std::min(camera.tan_x, camera.tan_y);
   const std::vector<float> sky_seen = ambient_visibility(thin_out(seen), camera, kOcclusionReach * extent);
   return paint(seen, sky_seen, camera, options.width, options.height);

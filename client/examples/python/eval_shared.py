@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Evaluates a sphere at random points through memory shared with isofieldd, with nothing of isofield but its .proto files.
+"""Evaluates a sphere at random points through memory shared with isofieldd.
 
-Generate the Python code as eval_points.py says. Then, with isofieldd --listen unix:PATH --shared-memory running:
+It uses nothing of isofield but its .proto files. Generate the Python code as eval_points.py says. Then, with isofieldd
+--listen unix:PATH --shared-memory running:
 
     PYTHONPATH=generated client/examples/python/eval_shared.py --server unix:PATH [--points N]
 """
