@@ -139,7 +139,7 @@ void add_operator_commands(CLI::App& app, Context& context) {
   command->add_option("--name", arguments->name, "Name on the server (default: the file's, without its extension)");
   command->callback([&context, arguments] { context.outcome = put(context, arguments->file, arguments->name); });
 
-  command = all->add_subcommand("rm", "Delete a custom operator of the server; scenes keep it");
+  command = all->add_subcommand("rm", "Delete a custom operator of the server; scenes that use it keep it");
   command->add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it")->required();
   command->callback([&context, arguments] { context.outcome = remove_entry(context, operators(), arguments->name); });
 

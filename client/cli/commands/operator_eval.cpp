@@ -99,9 +99,9 @@ void add_operator_eval_command(CLI::App& app, Context& context) {
       ->add_option(
           "--points", arguments->points,
           "Text with a header line (.csv): columns f1,f2 [and theta or alpha], or x1,x2 ... [and alpha, ratio], "
-          "or alpha for an opening; angles in radians; others are ignored; - is the standard input")
+          "or alpha for an opening; angles in radians; other columns are ignored; - is the standard input")
       ->required();
-  command->add_option("-o,--output", arguments->output, "Text with a row a point (.csv); - is the standard output")
+  command->add_option("-o,--output", arguments->output, "Text with one row per point (.csv); - is the standard output")
       ->capture_default_str();
   command->callback([&context, arguments] { context.outcome = evaluate(context, *arguments); });
 }

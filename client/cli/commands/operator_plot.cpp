@@ -289,12 +289,14 @@ void add_operator_plot_command(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("plot", "Draw an operator's level curves, or openings");
   arguments->op.add_to(*command);
   command->add_option("-o,--output", arguments->output, "Picture to write (.png, .svg or .pdf)")->required();
-  auto* thetas = command->add_option("--theta", arguments->thetas, "Opening angles in degrees, a panel each")
+  auto* thetas = command->add_option("--theta", arguments->thetas, "Opening angles in degrees, with a panel for each")
                      ->delimiter(',')
                      ->allow_extra_args(false)
                      ->check(within(0.0, 45.0))
                      ->expected(1, 16);
-  command->add_option("--alpha", arguments->alphas, "Instead: angles between the gradients in degrees, a panel each")
+  command
+      ->add_option("--alpha", arguments->alphas,
+                   "Instead of --theta: angles between the gradients in degrees, with a panel for each")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(within(0.0, 180.0))

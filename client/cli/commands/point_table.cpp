@@ -21,8 +21,8 @@ void PointTableArguments::add_to(CLI::App& command, const std::string& points_na
       ->check(number());
   command
       .add_option("-o,--output", output,
-                  "Text with a header (.csv), a NumPy array of structures with a field a column of numbers (.npy), or "
-                  "an object of arrays (.json); - is the standard output")
+                  "Text with a header (.csv), a NumPy structured array with a field for each column of numbers (.npy), "
+                  "or an object of arrays (.json); - is the standard output")
       ->capture_default_str();
   flags.add_to(command);
 }

@@ -21,7 +21,7 @@ void add_project_command(CLI::App& app, Context& context) {
       "where the field is constant are out of reach, for no gradient leads from there: those outside of all supports "
       "(farther from every primitive than its range) and, of positive fields, those deep inside of one. They stay "
       "where they are, with out_of_reach 1, converged 0 and an infinite residual. So do points whose "
-      "way ends in such a place");
+      "path along the gradient ends in such a place");
   arguments->add_to(*command, "--points");
   command
       ->add_option("--tolerance", arguments->tolerance,

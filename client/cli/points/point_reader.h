@@ -43,7 +43,7 @@ absl::StatusOr<std::unique_ptr<PointReader>> open_points(const std::string& path
 
 // The text in --help about such files.
 inline constexpr char kPointsHelp[] =
-    "Text with a point a line (.csv) or a NumPy array (.npy); - is the standard input. Columns or fields named x, y, "
-    "z, in any order; without names the first three. Rows of `isofield ray` that hit nothing are left out";
+    "Text with one point per line (.csv) or a NumPy array (.npy); - is the standard input. Columns or fields named x, "
+    "y, z, in any order; without names the first three. Rows of `isofield ray` that hit nothing are left out";
 
 }  // namespace isofield
