@@ -11,10 +11,12 @@ namespace isofield {
 
 // Says which arguments an operator takes (operator_service.proto, EvaluateOperatorRequest.columns).
 struct OperatorArity {
+  // The kind of fields that the operator combines: positive ones (columns f1, f2), signed ones (x1, x2 ...), or either.
   enum class Law { kPositive, kSigned, kEither } law = Law::kPositive;
   bool is_steered = false;  // it takes theta or alpha
   bool by_angle = false;    // it takes alpha and, if stated, ratio
 };
+// Returns the arity that the kind and the parameters of an operator determine.
 OperatorArity arity_of(const v1::Operator& message);
 
 // Chooses those of the columns `there` that the operator takes, in its own order. INVALID_ARGUMENT: one is missing, or

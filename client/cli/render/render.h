@@ -8,6 +8,7 @@
 
 namespace isofield {
 
+// The size of a picture and the place from which it is taken.
 struct RenderOptions {
   // Pixels, each within [16, 8192].
   int width = 1280;
