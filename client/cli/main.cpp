@@ -40,9 +40,9 @@ int main(int argc, char** argv) {
       "Each command has a --help of its own.\n"
       "Exit codes: 0 success; 1 the server refused the request or failed; 2 wrong usage; 3 no server answers;\n"
       "4 a file cannot be read, understood or written.\n"
-      "With --json an error is {\"error\": {\"code\", \"message\", \"exit_code\"}} on the standard output, with the\n"
-      "words on the standard error besides. Keys keep their order, numbers are numbers, and infinities and NaN are "
-      "null.");
+      "With --json an error is {\"error\": {\"code\", \"message\", \"exit_code\"}} on the standard output, and the\n"
+      "message is printed on the standard error too. Keys keep their order, numbers are JSON numbers, and infinities\n"
+      "and NaN are null.");
   app.add_option("--server", context.server, "The server's address: HOST:PORT, [IPV6]:PORT or unix:PATH")
       ->envname("ISOFIELD_SERVER")
       ->default_str("127.0.0.1:50051");
@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
                  "Seconds that each request may take (default: 60; meshes and large evaluations as long as they need)")
       .check(positive());
   all.add_flag("--json", context.json,
-               "Print one JSON object on the standard output, for machines, instead of words; watch prints one for "
+               "Print one JSON object on the standard output, for machines, instead of text; watch prints one for "
                "each picture");
   add_catalog_commands(all, context);
   add_import_command(all, context);

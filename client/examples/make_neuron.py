@@ -25,13 +25,13 @@ def unit(v):
 
 
 def wander(direction, amount, pull=(0, 0, 0)):
-    # The cell is flatter along z than it is wide, as pictures of neurons like it.
+    # Directions vary less along z, so that the cell is flatter along z than it is wide, which suits pictures.
     noise = (random.gauss(0, amount), random.gauss(0, amount), random.gauss(0, 0.6 * amount))
     return unit(tuple(d + n + p for d, n, p in zip(direction, noise, pull)))
 
 
 def turn(direction, angle):
-    """A direction at this angle to the given one, around it at random but rather in the x-y plane."""
+    """Returns a direction at this angle to the given one. The side is random, but prefers the x-y plane."""
     side = unit((random.gauss(0, 1), random.gauss(0, 1), random.gauss(0, 0.45)))
     along = sum(a * b for a, b in zip(side, direction))
     side = unit(tuple(s - along * d for s, d in zip(side, direction)))
@@ -39,7 +39,7 @@ def turn(direction, angle):
 
 
 def grow(kind, parent, position, direction, radius, steps, step, taper, noise, pull=(0, 0, 0)):
-    """An unbranched stretch; returns its samples as (id, position, direction, radius)."""
+    """Adds an unbranched stretch; returns its samples as (id, position, direction, radius)."""
     stretch = []
     for _ in range(steps):
         direction = wander(direction, noise, pull)
@@ -51,7 +51,7 @@ def grow(kind, parent, position, direction, radius, steps, step, taper, noise, p
 
 
 def fork(kind, end, depth, steps, step, noise, pull=(0, 0, 0)):
-    """Two branches at the end of a stretch, and so on `depth` times. A stack, not a recursion."""
+    """Adds two branches at the end of a stretch, and repeats that at their ends, `depth` times in all."""
     waiting = [(end, depth, steps)]
     while waiting:
         (parent, position, direction, radius), left, count = waiting.pop()
@@ -60,7 +60,7 @@ def fork(kind, end, depth, steps, step, noise, pull=(0, 0, 0)):
         share = random.uniform(0.42, 0.58)
         for part, sign in ((share, 1), (1 - share, -1)):
             branch = turn(direction, math.radians(random.uniform(22, 42)))
-            if sign < 0:  # away from the sister
+            if sign < 0:  # mirrored, away from the sister branch
                 branch = unit(tuple(2 * d - b for d, b in zip(direction, branch)))
             stretch = grow(kind, parent, position, branch, max(0.7, radius * part ** (2 / 3)),
                            max(3, count + random.randint(-2, 2)), step, 0.975, noise, pull)

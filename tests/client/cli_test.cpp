@@ -205,11 +205,11 @@ TEST_F(CliTest, WarnsOfCellsThatAreTooCoarse) {
     EXPECT_TRUE(absl::StrContains(out_, ": 3 bodies, ")) << out_;
     EXPECT_TRUE(absl::StrContains(err_,
                                   "warning: cells of 12.5 are too coarse for 1 primitive: n7, the thinnest, is 20 "
-                                  "across and takes cells of at most 11.5; the mesh has 3 bodies and may be torn "
-                                  "or lack parts; the server admits no smaller ones"))
+                                  "across and needs cells of at most 11.5; the mesh has 3 bodies and may be torn "
+                                  "or lack parts; the server allows no smaller cells"))
         << err_;
     EXPECT_EQ(run(command + " --cell 12.5"), 0);
-    EXPECT_TRUE(absl::StrContains(err_, "; --cell 11.5 would do\n")) << err_;
+    EXPECT_TRUE(absl::StrContains(err_, "; try --cell 11.5\n")) << err_;
     EXPECT_EQ(run(command + " --resolution 50"), 0);
     EXPECT_TRUE(absl::StrContains(err_, "higher --resolution")) << err_;
     EXPECT_EQ(run("--json " + command), 0);

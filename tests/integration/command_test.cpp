@@ -215,7 +215,7 @@ TEST_F(Command, ARefusedCellIsRefusedInTheWordsOfItsOption) {
     expect_exit(0, with("--cell", "1000"),
                 {"warning: cells of 1000 are too coarse for 1 primitive: ball, the thinnest, "
                  "is 2 across",
-                 "may be torn or lack parts; --cell 1.15 would do"});
+                 "may be torn or lack parts; try --cell 1.15"});
   }
   write_file(path("origins.csv"), "0,0,3\n");
   expect_exit(1, {"ray", ball, "--origins", path("origins.csv"), "--direction", "0,0,-1", "--cell", "1e-30"},

@@ -75,7 +75,7 @@ absl::Status parse_edit(const std::string& text, v1::ParameterEdit& edit) {
   for (const absl::string_view number : absl::StrSplit(absl::string_view(text).substr(equals + 1), ',')) {
     double value = 0;
     if (!absl::SimpleAtod(number, &value)) {
-      return usage_error(absl::StrCat("\"", text, "\": \"", number, "\" is no number"));
+      return usage_error(absl::StrCat("\"", text, "\": \"", number, "\" is not a number; expected NUMBER[,NUMBER..]"));
     }
     edit.add_values(value);
   }
@@ -128,7 +128,7 @@ void add_catalog_commands(Command app, Context& context) {
   command.add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it").required();
   command.callback([&context, arguments] { context.outcome = remove_entry(context, scenes(), arguments->name); });
 
-  command = app.add_subcommand("edit", "Change numbers of a scene on the server; all of them, or none");
+  command = app.add_subcommand("edit", "Change numbers of a scene on the server; if one cannot be changed, none is");
   command.add_option("NAME", arguments->name, "A scene's name on the server, as `ls` lists it").required();
   command
       .add_option("EDITS", arguments->edits,
@@ -136,7 +136,7 @@ void add_catalog_commands(Command app, Context& context) {
                   "all.opening.alpha0=10. A node is its name or #i, its place in the scene from 0; a field's name is "
                   "the one of scene.proto or of JSON")
       .required();
-  command.add_option("--expect-version", arguments->version, "Only when the scene has this version (default: 0, any)")
+  command.add_option("--expect-version", arguments->version, "Only if the scene has this version (default: 0, any)")
       .check(whole(0, UINT64_MAX));
   command.callback([&context, arguments] {
     context.outcome = edit(context, arguments->name, arguments->edits, arguments->version);

@@ -76,9 +76,9 @@ void add_eval_command(Command app, Context& context) {
   Command command = app.add_subcommand("eval", "Evaluate the field, and its gradient, at points");
   command.add_option("SCENE", arguments->scene, "A file, or else a name on the server").required();
   command.add_option("--points", arguments->points, kPointsHelp).required();
-  command.add_flag("--gradient", arguments->gradient, "The gradient too");
+  command.add_flag("--gradient", arguments->gradient, "Evaluate the gradient too");
   command.add_flag("--shared-memory", arguments->shared_memory,
-                   "Points and results through memory shared with the server, where it offers that");
+                   "Pass points and results through memory shared with the server, if the server offers that");
   command
       .add_option("-o,--output", arguments->output,
                   "Text x,y,z,value[,gx,gy,gz] (.csv), or a NumPy array (n, 1 or 4) (.npy); - is the standard output")

@@ -18,7 +18,9 @@ void ImportFlags::add_to(Command command) {
       .check(positive())
       .group(kGroup);
   command.add_option("--range", options.range, "Range of every piece, in model units").check(positive()).group(kGroup);
-  command.add_option("--radius", options.radius, "Bare points: R of the soft objects (default: 0.5)")
+  command
+      .add_option("--radius", options.radius,
+                  "Bare points: R, the distance from a point at which its field ends (default: 0.5)")
       .check(positive())
       .group(kGroup);
   command
@@ -43,7 +45,7 @@ void ImportFlags::add_to(Command command) {
       .group(kGroup);
   command
       .add_option("--altloc", options.altloc,
-                  "PDB, mmCIF: the alternate location to take (default: of each residue that of the highest occupancy)")
+                  "PDB, mmCIF: the alternate location to take (default: in each residue the one of highest occupancy)")
       .group(kGroup);
   command
       .add_option("--assembly", options.assembly,

@@ -49,7 +49,7 @@ absl::Status info(const Context& context, bool of_device) {
   absl::PrintF("         %u bytes and %u points a message; %u points a grid; %u cells a mesh\n",
                limits.max_message_bytes(), limits.max_points_per_message(), limits.max_grid_points(),
                limits.max_mesh_cells());
-  absl::PrintF("         %u requests and %u points that wait to be evaluated; %u and %u of other kinds at work\n",
+  absl::PrintF("         %u evaluations with %u points may wait or run; %u other requests with %u points may run\n",
                limits.max_queued_requests(), limits.max_queued_points(), limits.max_running_requests(),
                limits.max_running_points());
   return absl::OkStatus();
@@ -58,9 +58,9 @@ absl::Status info(const Context& context, bool of_device) {
 }  // namespace
 
 void add_info_command(Command app, Context& context) {
-  Command command = app.add_subcommand("info", "Tell what the server is, what it admits and what it holds");
+  Command command = app.add_subcommand("info", "Show the server's version, device and limits, and what it holds");
   const auto of_device = std::make_shared<bool>(false);
-  command.add_flag("--device", *of_device, "Tell of the device alone, with the numbers that fit the work to it");
+  command.add_flag("--device", *of_device, "Show only the device, with the tuning numbers for it");
   command.callback([&context, of_device] { context.outcome = info(context, *of_device); });
 }
 

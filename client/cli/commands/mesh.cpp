@@ -23,11 +23,12 @@ struct Arguments {
   bool smooth_creases = false;
 };
 
-// Coordinates of a thousand millionth to a thousand million of model units stay well within float32.
+// These limits keep coordinates of 1e-9 to 1e9 model units well within float32.
 constexpr double kLeastScale = 1e-18, kMostScale = 1e18;
 
-// Chooses the unit of the file's coordinates. A GLB is in metres where the scene's unit is known; others stay in model
-// units unless told otherwise. A note that is left in `warnings` says where a unit was not understood.
+// Chooses the unit of the file's coordinates. A GLB is in metres if the scene's unit is known; other files stay in
+// model units unless the options say otherwise. It adds a note to `warnings` if it does not understand the scene's
+// unit.
 absl::StatusOr<FileUnit> file_unit(const Arguments& arguments, MeshFormat format, const std::string& scene_unit,
                                    std::vector<std::string>& warnings) {
   if (arguments.scale) {
@@ -36,7 +37,7 @@ absl::StatusOr<FileUnit> file_unit(const Arguments& arguments, MeshFormat format
   }
   const std::optional<double> from = unit_in_metres(scene_unit);
   if (!arguments.units.empty()) {
-    // Most quotients of units are short decimal numbers, which binary fractions miss by a rounding.
+    // Most quotients of units are short decimal numbers. Binary division misses them by a rounding, which this undoes.
     if (from)
       return FileUnit{std::stod(absl::StrFormat("%.12g", *from / *unit_in_metres(arguments.units))), arguments.units};
     return usage_error(absl::StrCat(

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "commands/checks.h"
+#include "commands/command_line.h"
 #include "commands/scene_argument.h"
 #include "progress_line.h"
 
@@ -34,14 +35,14 @@ void MeshFlags::add_to(Command command) {
       .check(number());
   command
       .add_option("--tolerance", tolerance,
-                  "How far off the surface vertices may be left, in cells, within [1e-5, 0.1] (default: 1e-3)")
+                  "Distance at which a vertex counts as on the surface, in cells, within [1e-5, 0.1] (default: 1e-3)")
       .check(within(1e-5, 0.1));
   command
       .add_option("--simplify", simplify,
-                  "Fewer triangles, within this distance of the mesh, in model units (default: all of them)")
+                  "Use fewer triangles, within this distance of the full mesh, in model units (default: use all)")
       .check(positive());
-  command.add_flag("--largest", largest_body, "Keep only the body that encloses most, with its voids");
-  command.add_flag("--fill-voids", fill_voids, "Leave out voids, and what floats inside of them");
+  command.add_flag("--largest", largest_body, "Keep only the body that encloses the largest volume, with its voids");
+  command.add_flag("--fill-voids", fill_voids, "Leave out voids, and bodies that float inside them");
   import.add_to(command);
 }
 

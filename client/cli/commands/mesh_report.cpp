@@ -19,7 +19,8 @@ std::string shells(std::uint64_t bodies, std::uint64_t voids) {
   return voids == 0 ? text : absl::StrCat(text, ", ", count(voids, "void", "voids"));
 }
 
-// Down, so that a cell of this size is no coarser than the one that would do.
+// Returns a size with three digits for a message. It is rounded down, so that a cell of this size is no coarser than
+// the one that is needed.
 std::string rounded_down(double size) {
   const double unit = std::pow(10, std::floor(std::log10(size)) - 2);
   return absl::StrFormat("%g", std::floor(size / unit * (1 + 1e-12)) * unit);
@@ -28,11 +29,12 @@ std::string rounded_down(double size) {
 std::string remedy(double cell, CellsBy cells_by) {
   switch (cells_by) {
     case CellsBy::kServer:
-      return "the server admits no smaller ones in all (isofieldd --max-mesh-cells), but does so in parts (--bounds)";
+      return "the server allows no smaller cells for the whole scene (isofieldd --max-mesh-cells); mesh parts of it "
+             "(--bounds)";
     case CellsBy::kCell:
-      return absl::StrCat("--cell ", rounded_down(cell), " would do");
+      return absl::StrCat("try --cell ", rounded_down(cell));
     case CellsBy::kResolution:
-      return absl::StrCat("a higher --resolution, or --cell ", rounded_down(cell), ", would do");
+      return absl::StrCat("try a higher --resolution, or --cell ", rounded_down(cell));
   }
   return "";
 }
@@ -46,7 +48,7 @@ std::string thinness_warning(const v1::MeshSummary& summary, CellsBy cells_by) {
     effect = absl::StrCat("the mesh has ", shells(summary.bodies(), summary.voids()), " and may be torn or lack parts");
   }
   return absl::StrFormat(
-      "cells of %g are too coarse for %s: %s, the thinnest, is %g across and takes cells of at most %s; %s; %s",
+      "cells of %g are too coarse for %s: %s, the thinnest, is %g across and needs cells of at most %s; %s; %s",
       summary.cell_size(), count(thin.primitives(), "primitive", "primitives"), thin.node(), thin.thickness(),
       rounded_down(thin.cell_size()), effect, remedy(thin.cell_size(), cells_by));
 }
@@ -61,7 +63,7 @@ std::string sliver_warning(const v1::MeshSummary& summary) {
   }
   return absl::StrCat(all, " of the mesh's ", shells(summary.bodies(), summary.voids()),
                       all == 1 ? " is a sliver" : " are slivers", ", thinner than half a cell", place,
-                      ": the field hardly reaches its iso value there; --largest leaves slivers that are bodies out");
+                      ": the field hardly reaches the iso value there; --largest leaves out slivers that are bodies");
 }
 
 }  // namespace

@@ -7,16 +7,17 @@
 
 namespace isofield {
 
-// The way in which a command asked for the cells of a mesh; hints name the option.
+// Says what determined the cells of a mesh: an option or, without one, the server. Hints name the option.
 enum class CellsBy { kServer, kCell, kResolution };
 
-// Says what is doubtful about a mesh, such as cells that are too coarse or an empty surface, in a sentence each.
+// Returns a sentence about each doubtful property of a mesh, such as cells that are too coarse or an empty surface.
 std::vector<std::string> mesh_warnings(const v1::MeshSummary& summary, CellsBy cells_by);
 
-// Such as "2 bodies, 1 void, " or "1 body (2 bodies left out), "; empty where the server did not count.
+// Returns the counts of bodies and voids, such as "2 bodies, 1 void, " or "1 body (2 bodies left out), ". The text is
+// empty if the server did not count them.
 std::string shells_clause(const v1::MeshSummary& summary);
 
-// One line each on the standard error.
+// Prints each warning as a line on the standard error.
 void print_warnings(const std::vector<std::string>& warnings);
 
 }  // namespace isofield

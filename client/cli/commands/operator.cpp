@@ -57,7 +57,7 @@ absl::Status put(const Context& context, const std::string& file, const std::str
                      client->put_operator(name.empty() ? name_for(file) : name, *std::move(message)));
 }
 
-// Of the kind that an operator is.
+// Returns the parameters that operators of this kind have.
 std::vector<Parameter> parameters_of(const v1::Operator& message) {
   const auto* kinds = v1::Operator::descriptor()->FindOneofByName("kind");
   const auto* kind = message.GetReflection()->GetOneofFieldDescriptor(message, kinds);
@@ -139,7 +139,7 @@ void add_operator_commands(Command app, Context& context) {
   command.add_option("--name", arguments->name, "Name on the server (default: the file's, without its extension)");
   command.callback([&context, arguments] { context.outcome = put(context, arguments->file, arguments->name); });
 
-  command = all.add_subcommand("rm", "Delete a custom operator of the server; scenes keep it");
+  command = all.add_subcommand("rm", "Delete a custom operator of the server; scenes that use it keep it");
   command.add_option("NAME", arguments->name, "An operator's name, as `operator ls` lists it").required();
   command.callback([&context, arguments] { context.outcome = remove_entry(context, operators(), arguments->name); });
 

@@ -18,7 +18,7 @@ absl::Status set_all(const std::vector<std::string>& parameters, Message& messag
   return absl::OkStatus();
 }
 
-// The field of a built-in operator; nullptr: the name is none's.
+// Returns the field of v1::Operator for a built-in operator, or nullptr if no built-in operator has this name.
 const FieldDescriptor* built_in(const std::string& name) {
   const FieldDescriptor* field = v1::Operator::descriptor()->FindFieldByName(name);
   return field && field->containing_oneof() ? field : nullptr;

@@ -10,7 +10,8 @@
 
 namespace isofield {
 
-// NAME and --param of the commands that evaluate an operator.
+// The arguments NAME and --param of the commands that evaluate an operator, or an opening function where the name is
+// "opening".
 struct OperatorArgument {
   std::string name;
   std::vector<std::string> parameters;
@@ -19,14 +20,14 @@ struct OperatorArgument {
   bool is_opening() const { return name == "opening"; }
 };
 
-// An operator to be evaluated.
+// The operator or opening that the arguments choose.
 struct ChosenOperator {
-  v1::EvaluateOperatorRequest request;  // states it; no columns yet
-  v1::Operator message;                 // of an opening: none
+  v1::EvaluateOperatorRequest request;  // names or contains it; the columns are still missing
+  v1::Operator message;                 // the operator; empty for an opening
 };
 
-// A built-in operator, "opening", or a custom operator of the server, with the parameters set. An error of usage: no
-// such parameter or value.
+// Finds a built-in operator, "opening", or a custom operator, for which it asks the server, and sets the parameters. A
+// parameter or value that does not exist is an error of usage.
 absl::StatusOr<ChosenOperator> choose_operator(const OperatorArgument& argument, Client& client);
 
 }  // namespace isofield

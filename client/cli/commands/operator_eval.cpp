@@ -31,7 +31,7 @@ absl::StatusOr<std::vector<std::string>> columns_for(const OperatorArgument& op,
       absl::StrCat("the columns are ", excerpt(absl::StrJoin(header, ", ")), "; expected alpha (radians)"));
 }
 
-// Nine significant digits give a float32 back to the bit.
+// Appends the results as lines of text. Nine significant digits give a float32 back to the bit.
 void append_rows(const OperatorValues& results, std::string& text) {
   const std::size_t columns = results.columns.size();
   for (std::size_t i = 0; i < results.values.size(); ++i) {
@@ -99,9 +99,9 @@ void add_operator_eval_command(Command app, Context& context) {
       .add_option(
           "--points", arguments->points,
           "Text with a header line (.csv): columns f1,f2 [and theta or alpha], or x1,x2 ... [and alpha, ratio], "
-          "or alpha for an opening; angles in radians; others are ignored; - is the standard input")
+          "or alpha for an opening; angles in radians; other columns are ignored; - is the standard input")
       .required();
-  command.add_option("-o,--output", arguments->output, "Text with a row a point (.csv); - is the standard output")
+  command.add_option("-o,--output", arguments->output, "Text with one row per point (.csv); - is the standard output")
       .shows_default();
   command.callback([&context, arguments] { context.outcome = evaluate(context, *arguments); });
 }

@@ -44,8 +44,8 @@ v1::Form take_form(v1::Operator& message) {
   return form;
 }
 
-// Whether there are places where an operand alone decides on g, and others where both do. Samples tell them apart only
-// to a cell.
+// Returns true if in some places one operand alone determines the operator's value g and in others both do. The kind of
+// the operator tells this; samples could tell it only to the size of a cell.
 bool has_boundary(const v1::Operator& message) {
   switch (message.kind_case()) {
     case v1::Operator::kGradient:
@@ -65,7 +65,8 @@ bool has_boundary(const v1::Operator& message) {
   }
 }
 
-// The largest range or coordinate that the operator states, or 1: what its plane is scaled to.
+// Returns the length to which the plot's plane is scaled: the largest range or coordinate that the operator states, or
+// 1.
 double scale_of(const v1::Operator& message) {
   double scale = 0;
   for (const double range : message.superelliptic().ranges()) scale = std::max(scale, range);
@@ -77,20 +78,21 @@ double scale_of(const v1::Operator& message) {
   return scale > 0 && std::isfinite(scale) ? scale : 1;
 }
 
-// The operator as the command line states it, of so many characters at most.
+// Returns the operator as the command line states it, shortened to at most `most` characters.
 std::string heading_of(const OperatorArgument& op, std::size_t most) {
   std::string heading = op.name;
   for (const std::string& parameter : op.parameters) absl::StrAppend(&heading, " ", parameter);
   return heading.size() > most ? heading.substr(0, most - 3) + "..." : heading;
 }
 
-// What a plot samples: columns of the two operands, and of the angle where there is one.
+// Samples an operator for a plot. The columns are the two operands and, if the operator takes one, an angle.
 struct Sampler {
   Client& client;
   std::vector<std::string> columns;
 
-  // The rows of the response: g and the partials by both operands come first. `angle`: radians; counts where there is a
-  // column for it.
+  // Evaluates the operator at points. Each row of the result begins with g and its partial derivatives by both
+  // operands. `angle` is in radians, and is used only if there is a column for it. INTERNAL: the server sent fewer
+  // columns.
   absl::StatusOr<OperatorValues> sample(v1::EvaluateOperatorRequest request, const std::vector<Point>& points,
                                         double angle) const {
     request.clear_columns();
@@ -113,17 +115,18 @@ struct Sampler {
   }
 };
 
-// Where the blend begins: on one side an operand alone decides on g, on the other both do.
+// Finds the curve at which the blend begins: on one side of it one operand alone determines g, on the other both do.
 absl::StatusOr<std::vector<Segment>> find_boundary(const OperatorPlot& plot, const v1::Operator& message,
                                                    const Sampler& sampler, double angle, int cells) {
   if (!has_boundary(message)) return std::vector<Segment>();
-  // Of the union: for other forms the operands are turned instead, so that the sides of the frame, where those are
-  // clamped, make no boundary.
+  // The samples are those of the union. For other forms the operands are complemented instead: sampled directly, the
+  // sides of the frame, where operands are clamped, would show up as a boundary.
   v1::EvaluateOperatorRequest request;
   *request.mutable_inline_() = message;
   const v1::Form form = take_form(*request.mutable_inline_());
   v1::Operator& blend = *request.mutable_inline_();
-  // The boundary does not depend on what is changed here, and is sharpest without it: high powers underflow near it.
+  // The boundary does not depend on the parameters that are reset here, and is sharpest without them, because high
+  // powers underflow near it.
   if (blend.has_gradient()) {
     blend.mutable_gradient()->clear_silhouette();
     blend.mutable_gradient()->clear_volume();
@@ -133,7 +136,7 @@ absl::StatusOr<std::vector<Segment>> find_boundary(const OperatorPlot& plot, con
     blend.mutable_btk()->clear_powers();
   }
   const bool turns_x = form == v1::INTERSECTION || form == v1::DIFFERENCE, turns_y = form == v1::INTERSECTION;
-  // A difference turns the gradient of its first operand round.
+  // A difference reverses the gradient of its first operand.
   const bool by_alpha = sampler.columns.size() > 2 && sampler.columns[2] == "alpha";
   if (form == v1::DIFFERENCE && by_alpha) angle = std::numbers::pi - angle;
   const double whole = plot.inside_above ? 1 : 0;  // what a field and its complement add up to
@@ -144,14 +147,14 @@ absl::StatusOr<std::vector<Segment>> find_boundary(const OperatorPlot& plot, con
                           if (!results.ok()) return results.status();
                           std::vector<char> inside;
                           for (std::size_t at = 0; at < results->values.size(); at += results->columns.size()) {
-                            // Operators return exactly 0 as the partial by an operand that does not count.
+                            // Operators return exactly 0 as the partial derivative by an operand that has no effect.
                             inside.push_back(results->values[at + 1] != 0 && results->values[at + 2] != 0);
                           }
                           return inside;
                         });
 }
 
-// One panel for each angle; without angles one.
+// Samples one panel for each angle, or a single panel for an operator without an angle.
 absl::StatusOr<OperatorPlot> sample_operator(const PlotArguments& arguments, const ChosenOperator& chosen,
                                              Client& client) {
   const OperatorArity arity = arity_of(chosen.message);
@@ -176,12 +179,12 @@ absl::StatusOr<OperatorPlot> sample_operator(const PlotArguments& arguments, con
     const double scale = scale_of(chosen.message);
     plot.low = -scale;
     plot.high = 2 * scale;
-    // All but the super-elliptic blend, which is 1 beyond its ranges, yield distances.
+    // All operators but the super-elliptic blend yield distances; that one is 1 beyond its ranges.
     if (!chosen.message.has_superelliptic()) plot.step = 0.1 * scale;
     plot.surface = 0;
     plot.inside_above = false;
   }
-  // A cell of two pixels, and one of a pixel for the boundary.
+  // Values are sampled every two pixels, the boundary every pixel.
   plot.side = std::clamp(arguments.size / 2, 64, 256);
   const int boundary_cells = std::clamp(arguments.size, 128, 512);
   Sampler sampler{client, {plot.x_name, plot.y_name}};
@@ -229,7 +232,7 @@ absl::StatusOr<OpeningCurve> sample_opening(const std::string& name, v1::Evaluat
   return curve;
 }
 
-// Without parameters all presets.
+// Draws the opening function that the parameters describe, or all presets if there are none.
 absl::StatusOr<Drawing> plot_opening(const PlotArguments& arguments, const ChosenOperator& chosen, Client& client) {
   if (!arguments.thetas.empty() || !arguments.alphas.empty()) {
     return usage_error("an opening is drawn over all angles; expected neither --theta nor --alpha");
@@ -286,12 +289,14 @@ void add_operator_plot_command(Command app, Context& context) {
   Command command = app.add_subcommand("plot", "Draw an operator's level curves, or openings");
   arguments->op.add_to(command);
   command.add_option("-o,--output", arguments->output, "Picture to write (.png, .svg or .pdf)").required();
-  Option thetas = command.add_option("--theta", arguments->thetas, "Opening angles in degrees, a panel each")
+  Option thetas = command.add_option("--theta", arguments->thetas, "Opening angles in degrees, with a panel for each")
                       .delimiter(',')
                       .one_argument_each()
                       .check(within(0.0, 45.0))
                       .expected(1, 16);
-  command.add_option("--alpha", arguments->alphas, "Instead: angles between the gradients in degrees, a panel each")
+  command
+      .add_option("--alpha", arguments->alphas,
+                  "Instead of --theta: angles between the gradients in degrees, with a panel for each")
       .delimiter(',')
       .one_argument_each()
       .check(within(0.0, 180.0))

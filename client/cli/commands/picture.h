@@ -11,14 +11,14 @@
 
 namespace isofield {
 
-// The options of the commands that draw a surface, and the drawing itself.
+// The options of the commands that draw a picture of a surface. They also mesh the surface and draw it.
 struct PictureFlags {
   MeshFlags mesh;
   ViewFlags view;
   std::string output, size = "1280x960";
 
   void add_to(Command command);
-  // Finds errors of usage, and of the files to be written, before the server is asked for anything.
+  // Returns an error of usage or of the files that will be read or written, before the server is asked for anything.
   absl::Status check() const;
   // Meshes the surface, draws it, writes the picture and keeps the view. Prints a line, or an object for --json.
   absl::Status draw(const Context& context, Client& client) const;

@@ -21,8 +21,8 @@ void PointTableArguments::add_to(Command command, const std::string& points_name
       .check(number());
   command
       .add_option("-o,--output", output,
-                  "Text with a header (.csv), a NumPy array of structures with a field a column of numbers (.npy), or "
-                  "an object of arrays (.json); - is the standard output")
+                  "Text with a header (.csv), a NumPy structured array with a field for each column of numbers (.npy), "
+                  "or an object of arrays (.json); - is the standard output")
       .shows_default();
   flags.add_to(command);
 }

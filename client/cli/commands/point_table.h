@@ -16,7 +16,7 @@
 
 namespace isofield {
 
-// The arguments of commands that ask a question about many points and write a table of answers.
+// The arguments of the commands that ask the server a question about many points and write a table of answers.
 struct PointTableArguments {
   std::string scene, points, output = "-";
   std::optional<double> iso;

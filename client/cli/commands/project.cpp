@@ -21,7 +21,7 @@ void add_project_command(Command app, Context& context) {
       "where the field is constant are out of reach, for no gradient leads from there: those outside of all supports "
       "(farther from every primitive than its range) and, of positive fields, those deep inside of one. They stay "
       "where they are, with out_of_reach 1, converged 0 and an infinite residual. So do points whose "
-      "way ends in such a place");
+      "path along the gradient ends in such a place");
   arguments->add_to(command, "--points");
   command
       .add_option("--tolerance", arguments->tolerance,
@@ -43,7 +43,7 @@ void add_project_command(Command app, Context& context) {
                         table.add_vectors({"nx", "ny", "nz"}, found->normals);
                         table.add("converged", std::span<const std::uint8_t>(found->converged));
                         table.add("residual", std::span<const float>(found->residuals));
-                        // Where the gradient vanishes the residual is infinite.
+                        // The residual is infinite where the gradient vanishes.
                         std::vector<std::uint8_t> out_of_reach;
                         for (std::size_t i = 0; i < found->residuals.size(); ++i) {
                           out_of_reach.push_back(found->converged[i] == 0 && std::isinf(found->residuals[i]) ? 1 : 0);

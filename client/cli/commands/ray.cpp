@@ -61,7 +61,7 @@ absl::Status cast(Client& client, const v1::SceneRef& scene, const RayArguments&
 void add_ray_command(Command app, Context& context) {
   const auto arguments = std::make_shared<RayArguments>();
   Command command = app.add_subcommand(
-      "ray", "Find where rays first meet the surface: distance (inf: nowhere),x,y,z,nx,ny,nz,inside,node");
+      "ray", "Find where rays first meet the surface: distance (inf: no hit),x,y,z,nx,ny,nz,inside,node");
   arguments->add_to(command, "--origins");
   Option each = command.add_option("--directions", arguments->directions,
                                    "A direction for each origin, of any length but 0: columns dx, dy, dz, or the "
@@ -74,14 +74,16 @@ void add_ray_command(Command app, Context& context) {
       .excludes(each);
   command
       .add_option("--max-distance", arguments->max_distance,
-                  "Where the rays end, in model units from their origins (default: nowhere)")
+                  "Length of the rays, in model units (default: they do not end)")
       .check(positive());
   command
       .add_option("--cell", arguments->cell,
-                  "What is thinner than this along a ray may be missed, in model units (default: chosen by the "
-                  "server after the thinnest part)")
+                  "Edge length of a cell, in model units; parts thinner than this along a ray may be missed (default: "
+                  "chosen by the server after the thinnest part)")
       .check(positive());
-  command.add_option("--bounds", arguments->bounds, "x0,y0,z0,x1,y1,z1 in model units: where the surface is looked for")
+  command
+      .add_option("--bounds", arguments->bounds,
+                  "x0,y0,z0,x1,y1,z1: the box in which to look for the surface, in model units")
       .check(number())
       .delimiter(',')
       .expected(6);

@@ -134,7 +134,8 @@ void add_slice_command(Command app, Context& context) {
       .expected(2);
   command
       .add_option("--levels", arguments->levels,
-                  "Values whose curves a picture shows, the first one heavily (default: the surface's)")
+                  "Field values whose level curves a picture shows, the first one as a thick line (default: the "
+                  "surface's)")
       .check(number())
       .delimiter(',');
   command

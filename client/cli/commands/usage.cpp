@@ -12,7 +12,7 @@
 namespace isofield {
 namespace {
 
-// The program, the command that the user chose, and the commands between them.
+// Returns the program, the commands below it that the user chose, and last the command that is run.
 std::vector<const CLI::App*> chain_of(const CLI::App& app) {
   std::vector<const CLI::App*> chain{&app};
   while (!chain.back()->get_subcommands().empty()) chain.push_back(chain.back()->get_subcommands().front());
@@ -45,7 +45,7 @@ std::string explain_extra(const std::vector<const CLI::App*>& chain, const std::
   return absl::StrCat(wanted, ": no such option of ", command, did_you_mean(wanted, names));
 }
 
-// The option or argument that CLI11's message is about; nullptr where it is about none.
+// Returns the option or argument that CLI11's message is about, or nullptr if it is about none.
 const CLI::Option* option_in(const std::string& message, const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     std::vector<std::string> names;

@@ -13,7 +13,7 @@ namespace isofield {
 // the nearest known one, a missing or unreadable value with the option's description.
 std::string explain_usage(const CLI::App& app, const CLI::ParseError& error);
 
-// The command that the user chose with all commands above it, such as "isofield operator eval".
+// Returns the command that the user chose, with all commands above it, such as "isofield operator eval".
 std::string chosen_command(const CLI::App& app);
 
 }  // namespace isofield

@@ -25,7 +25,7 @@ const std::map<std::string, Side>& sides() {
   return *kSides;
 }
 
-// The side from which a direction looks. The azimuth is 0 where it looks straight up or down.
+// Returns the side from which a direction looks. The azimuth is 0 if it looks straight up or down.
 Side side_of(const glm::dvec3& direction) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   const double x = direction.x, y = direction.y, z = direction.z;

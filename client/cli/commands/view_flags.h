@@ -11,15 +11,15 @@
 
 namespace isofield {
 
-// The options that say from where a picture is taken, and the file that keeps these settings.
+// The options that say from where a picture is taken. One of them names a file that keeps the view between pictures.
 class ViewFlags {
  public:
   void add_to(Command command);
 
-  // The view of the file, if there is one, with the options overriding it. Faults of the file are file errors, others
-  // are errors of usage.
+  // Returns the view of the file, if there is one, with the options overriding it. Faults of the file are file errors,
+  // other faults are errors of usage.
   absl::StatusOr<View> view() const;
-  // Writes the view of a picture into the file. Does nothing where no file is named or it holds this view already.
+  // Writes the view of a picture into the file. Does nothing if no file is named or it holds this view already.
   absl::Status keep(const View& view) const;
 
  private:

@@ -8,7 +8,7 @@ CreaseNormals crease_normals(const Mesh& mesh) {
   const auto& [vertices, normals, corners] = mesh.creases;
   CreaseNormals out{.normals = mesh.normals, .corners = mesh.triangles};
   std::vector<bool> has_wedge(mesh.vertex_count());
-  std::vector<std::uint32_t> rows;  // of wedges in out.normals
+  std::vector<std::uint32_t> rows;  // the row of each wedge in out.normals
   for (std::size_t wedge = 0; wedge < vertices.size(); ++wedge) {
     const std::uint32_t vertex = vertices[wedge];
     const float* normal = &normals[3 * wedge];

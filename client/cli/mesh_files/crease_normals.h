@@ -7,18 +7,19 @@
 
 namespace isofield {
 
-// The normals of a mesh with one for each side where creases pass through a vertex.
+// The normals of a mesh in which a vertex on a crease has a normal for each side of the crease, as GLB and OBJ files
+// need them.
 struct CreaseNormals {
-  // [n + k, 3]: those of the n vertices, on creases of their first sides, then those of further sides.
+  // [n + k, 3]: one normal for each of the n vertices, on creases that of the first side; then the k of further sides.
   std::vector<float> normals;
-  std::vector<std::uint32_t> vertices;  // [k]: of the further ones
-  std::vector<std::uint32_t> corners;   // [m, 3]: which normal each corner of a triangle has
+  std::vector<std::uint32_t> vertices;  // [k]: the vertex of each further normal
+  std::vector<std::uint32_t> corners;   // [m, 3]: the number of the normal at each corner of each triangle
 };
 
-// Tells them by Mesh::creases. `mesh` has normals.
+// Computes these normals from Mesh::creases. The mesh must have normals.
 CreaseNormals crease_normals(const Mesh& mesh);
 
-// The mesh with a vertex for each of these normals; itself where it has no creases.
+// Returns the mesh with a vertex for each of these normals. A mesh without creases is returned as it is.
 Mesh split_at_creases(Mesh mesh);
 
 }  // namespace isofield

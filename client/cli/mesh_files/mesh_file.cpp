@@ -24,7 +24,7 @@ namespace {
 
 absl::Status write_scaled(const Mesh& mesh, MeshFormat format, const std::string& name, OutputFile& file,
                           CreaseShading shading, std::string unit) {
-  // A line of a header.
+  // The unit becomes part of a line of the header, so it must not break that line.
   std::replace_if(
       unit.begin(), unit.end(), [](unsigned char c) { return c < ' '; }, ' ');
   switch (format) {

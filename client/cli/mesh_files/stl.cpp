@@ -16,7 +16,7 @@ glm::vec3 corner(const Mesh& mesh, std::size_t index) {
   return {position[0], position[1], position[2]};
 }
 
-// (0, 0, 0) for a triangle without area, as the format has it.
+// Returns the unit normal of a triangle, or (0, 0, 0) for one without area, as the format wants it.
 glm::vec3 normal_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   const glm::vec3 n = glm::cross(b - a, c - a);
   const float length = glm::length(n);

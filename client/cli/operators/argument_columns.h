@@ -9,21 +9,23 @@
 
 namespace isofield {
 
-// What the kind of an operator means for its arguments (operator_service.proto, EvaluateOperatorRequest.columns).
+// Says which arguments an operator takes (operator_service.proto, EvaluateOperatorRequest.columns).
 struct OperatorArity {
+  // The kind of fields that the operator combines: positive ones (columns f1, f2), signed ones (x1, x2 ...), or either.
   enum class Law { kPositive, kSigned, kEither } law = Law::kPositive;
-  bool is_steered = false;  // by theta or alpha
-  bool by_angle = false;    // by alpha, and ratio where it is stated
+  bool is_steered = false;  // it takes theta or alpha
+  bool by_angle = false;    // it takes alpha and, if stated, ratio
 };
+// Returns the arity that the kind and the parameters of an operator determine.
 OperatorArity arity_of(const v1::Operator& message);
 
-// Those of the columns there are that the operator takes, in order. INVALID_ARGUMENT: one is missing, or theta and
-// alpha are both there; says what is expected.
+// Chooses those of the columns `there` that the operator takes, in its own order. INVALID_ARGUMENT: one is missing, or
+// an operator that takes theta or alpha is given both; the message says what is expected.
 absl::StatusOr<std::vector<std::string>> choose_columns(const v1::Operator& message,
                                                         const std::vector<std::string>& there);
 
-// The place of each of `columns` in `there`, a table's columns. INVALID_ARGUMENT: one of them is not there exactly
-// once; the message lists the names.
+// Returns the place of each of `columns` in `there`, the columns of a table. INVALID_ARGUMENT: one of them is not there
+// exactly once; the message lists the names.
 absl::StatusOr<std::vector<std::size_t>> places_of(const std::vector<std::string>& columns,
                                                    const std::vector<std::string>& there);
 

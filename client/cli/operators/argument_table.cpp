@@ -59,8 +59,8 @@ absl::StatusOr<bool> ArgumentTable::next_cells() {
 
 absl::Status ArgumentTable::parse_row(std::vector<float>& numbers) const {
   if (cells_.size() != header_.size()) {
-    return lines_.refuse(cells_.front(), absl::StrCat("begins a line of ", cells_.size(), " cells; expected ",
-                                                      header_.size(), " as in the header"));
+    return lines_.refuse(cells_.front(), absl::StrCat("this begins a line of ", cells_.size(), " cells; expected ",
+                                                      header_.size(), ", as in the header"));
   }
   for (const std::size_t place : places_) {
     float number = 0;

@@ -13,7 +13,8 @@ struct ParameterRange {
   std::string otherwise;  // the default in words; empty where the field must be stated
 };
 
-// The range of a field that is neither a message nor an operand. Every such field states one, as a test checks.
+// Returns the range of a field that is neither a message nor an operand. A test checks that every such field states
+// one.
 ParameterRange range_of(const google::protobuf::FieldDescriptor& field);
 
 }  // namespace isofield

@@ -16,7 +16,7 @@ using google::protobuf::EnumDescriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-// A field of the message, or of a message in it.
+// The place of a parameter: a field of the message, or of a message in it.
 struct Place {
   const FieldDescriptor* outer;  // nullptr: in the message itself
   const FieldDescriptor* field;
@@ -31,7 +31,7 @@ bool is_message(const FieldDescriptor& field) {
   return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
 }
 
-// A message's first enum, which says what kind it is; nullptr: it has none.
+// Returns a message's first enum, which says what kind it is, or nullptr if it has none.
 const FieldDescriptor* enum_of(const FieldDescriptor& message) {
   for (int i = 0; i < message.message_type()->field_count(); ++i) {
     const FieldDescriptor* field = message.message_type()->field(i);
@@ -66,7 +66,7 @@ std::string value_names(const EnumDescriptor& type) {
   return absl::StrCat("one of ", absl::StrJoin(names, ", "));
 }
 
-// Sets or appends one value; false: it is none of the field's type.
+// Sets one value, or appends it to a list. Returns false if the text is not a value of the field's type.
 bool put_value(absl::string_view text, const FieldDescriptor& field, Message& message) {
   const auto* reflection = message.GetReflection();
   switch (field.cpp_type()) {
@@ -145,7 +145,7 @@ absl::Status set_parameter(const std::string& assignment, Message& message) {
   if (equals == std::string::npos || equals == 0) return refuse(assignment, "NAME=VALUE");
   const absl::string_view name = absl::string_view(assignment).substr(0, equals);
   const absl::string_view value = absl::string_view(assignment).substr(equals + 1);
-  // A whole name before the last part of one.
+  // A whole name is preferred to the last part of one.
   std::vector<Place> found, nested;
   for (const Place& place : places_of(message)) {
     const auto is = [&](const std::string& own) { return absl::EqualsIgnoreCase(own, name); };

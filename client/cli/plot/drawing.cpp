@@ -9,7 +9,7 @@ namespace {
 
 // Cairo falls back to another font where this one is not installed, and to one of its own where there is none at all.
 constexpr char kFont[] = "DejaVu Sans";
-// The height of its digits by its size.
+// The height of the font's digits as a part of its size.
 constexpr double kDigitHeight = 0.729;
 
 void set_color(cairo_t* context, Color color) {
@@ -17,7 +17,8 @@ void set_color(cairo_t* context, Color color) {
   cairo_set_source_rgb(context, channel(16), channel(8), channel(0));
 }
 
-// Letters have the same places in every format: hints of a font would round their widths to pixels.
+// Turns off the hints of fonts that would round the widths of letters to pixels, so that letters have the same places
+// in every format.
 void set_font_options(cairo_t* context) {
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
@@ -27,6 +28,7 @@ void set_font_options(cairo_t* context) {
   cairo_font_options_destroy(options);
 }
 
+// Selects the size at which digits are `height` high, and returns the width of the text at that size.
 double advance(cairo_t* context, const std::string& text, double height) {
   cairo_set_font_size(context, height / kDigitHeight);
   cairo_text_extents_t extents;

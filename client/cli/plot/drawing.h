@@ -14,13 +14,14 @@ namespace isofield {
 // 0xRRGGBB, as sRGB.
 using Color = std::uint32_t;
 
-// Lines, text and shades on white, recorded by Cairo, so that the same drawing can become pixels or a page; see
-// plot_file.h. Lengths are in pixels, y downwards; pixel (i, j) covers [i, i + 1] x [j, j + 1]. Single-threaded.
+// Draws lines, text and shades on white. Cairo records them, so that the same drawing can become pixels or a page; see
+// plot_file.h. Lengths are in pixels, y downwards; pixel (i, j) covers [i, i + 1] x [j, j + 1]. It is single-threaded.
+// Errors of Cairo are kept until status() is asked.
 class Drawing {
  public:
   Drawing(int width, int height);
 
-  // Draws all segments as one stroke: where they meet or cross nothing is drawn twice. Ends are round.
+  // Draws all segments as one stroke, so that nothing is drawn twice where they meet or cross. Ends are round.
   void stroke(const std::vector<Segment>& segments, double width, Color color);
   // The text's base line begins (align 0), is centred (0.5) or ends (1) at `at`; digits are `height` high. Bytes that
   // are not UTF-8 are drawn as U+FFFD.
@@ -32,9 +33,9 @@ class Drawing {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  // CAIRO_STATUS_SUCCESS, or the first error of all that was drawn.
+  // Returns CAIRO_STATUS_SUCCESS, or the first error of all that was drawn.
   cairo_status_t status() const { return cairo_status(context_.get()); }
-  // What was drawn so far. The drawing owns it.
+  // Returns a recording of all that was drawn so far. The drawing owns it.
   cairo_surface_t* recording() const { return cairo_get_target(context_.get()); }
 
  private:

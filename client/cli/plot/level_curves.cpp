@@ -4,7 +4,7 @@ namespace isofield {
 
 std::vector<Segment> level_curve(std::span<const float> values, int side, float level) {
   const auto at = [&](int i, int j) { return values[std::size_t{1} * j * side + i] - level; };
-  // Where the level is crossed between two neighbours of opposite sides.
+  // Returns the point between two neighbouring samples, one on each side of the level, at which the level is crossed.
   const auto crossing = [&](int i0, int j0, int i1, int j1) {
     const double a = at(i0, j0), b = at(i1, j1), t = a / (a - b);
     return Point{i0 + t * (i1 - i0), j0 + t * (j1 - j0)};

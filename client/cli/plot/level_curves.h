@@ -7,8 +7,8 @@
 
 namespace isofield {
 
-// Where a function that is sampled at (i, j), 0 <= i, j < side, i fastest, has a value: marching squares, in those
-// coordinates.
+// Finds the curve on which a function has the value `level`, by marching squares. The function is sampled at (i, j),
+// 0 <= i, j < side, with i fastest; the curve is in these coordinates.
 std::vector<Segment> level_curve(std::span<const float> values, int side, float level);
 
 }  // namespace isofield

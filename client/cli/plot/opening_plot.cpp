@@ -35,7 +35,7 @@ Drawing draw(const std::vector<OpeningCurve>& curves, int size) {
                           axes.place(step * static_cast<double>(at), curve.theta[at])});
     }
     drawing.stroke(segments, 2.2, color);
-    // From right to left: a sample of the line before each name.
+    // The legend is drawn from right to left. A sample of the line stands before each name.
     const double y = top - 3 * text;
     drawing.text(curve.name, {legend, y}, 1.1 * text, 1, kInk);
     legend -= drawing.text_width(curve.name, 1.1 * text) + text;

@@ -14,10 +14,10 @@ constexpr Color kLevel = 0x788caa;
 constexpr Color kSurface = 0x14326e;
 constexpr Color kBoundary = 0xd6541e;
 constexpr Color kInside = 0xe5edf8, kOutside = 0xffffff;
-// Level curves nearer than this to each other, in pixels, are too dense, if more than that part of a curve is.
+// Level curves are too dense if more than kDensePart of one is nearer than kLeastDistance (pixels) to the one before.
 constexpr double kLeastDistance = 4, kDensePart = 0.25;
 
-// From grid coordinates to pixels.
+// Converts segments from the samples' coordinates to pixels.
 std::vector<Segment> placed(std::vector<Segment> segments, const OperatorPlot& plot, const Axes& axes) {
   const double step = (plot.high - plot.low) / (plot.side - 1);
   for (Segment& s : segments) {
@@ -26,8 +26,8 @@ std::vector<Segment> placed(std::vector<Segment> segments, const OperatorPlot& p
   return segments;
 }
 
-// A colour for each sample. Their rows begin at the bottom, those of the colours at the top. The edge of what is inside
-// lies below the surface's stroke.
+// Returns a colour for each sample. The samples' rows begin at the bottom, those of the colours at the top. The stroke
+// of the surface hides the steps at the edge of what is inside.
 std::vector<Color> shades(const OperatorPlot& plot, const std::vector<float>& g) {
   std::vector<Color> colors;
   colors.reserve(g.size());
@@ -44,7 +44,7 @@ Point middle(const Segment& s) {
   return (s.a + s.b) / 2.0;
 }
 
-// Both curves in the samples' coordinates; `near`: in those too.
+// Returns true if the curve is too dense beside the one before. The curves and `near` are in the samples' coordinates.
 bool is_dense(const std::vector<Segment>& curve, const std::vector<Segment>& before, double near) {
   std::size_t dense = 0;
   for (const Segment& s : curve) {
@@ -72,7 +72,7 @@ void draw_panel(const OperatorPlot& plot, const OperatorPlot::Panel& panel, cons
                kInk);
 }
 
-// The beginning of a text that is at most so wide.
+// Returns the text, or the longest beginning of it that is at most `width` pixels wide with "..." after it.
 std::string fitted(std::string text, double height, double width, Drawing& drawing) {
   if (drawing.text_width(text, height) <= width) return text;
   while (!text.empty() && drawing.text_width(text + "...", height) > width) {
@@ -92,7 +92,7 @@ std::vector<float> shown_levels(const OperatorPlot& plot, const std::vector<floa
   std::vector<float> levels;
   for (const int direction : {-1, 1}) {
     auto before = surface;
-    // How many steps are left out grows as 1, 2, 5, 10, ...: fields may steepen without bound.
+    // The distance between levels grows as 1, 2, 5, 10, ... steps, because fields may steepen without bound.
     double decade = 1, factor = 1, last = 0;
     while (true) {
       const double next = (std::floor(last / (decade * factor) + 1e-6) + 1) * decade * factor;
@@ -120,14 +120,14 @@ Drawing draw(const OperatorPlot& plot, int size) {
   const auto panels = static_cast<int>(plot.panels.size());
   const auto pitch = static_cast<int>(left + size + right);
   Drawing drawing(panels * pitch, static_cast<int>(top + size + bottom));
-  // In smaller letters before it is shortened.
+  // The heading gets smaller letters, down to a limit, before it is shortened.
   const double room = panels * pitch - 2 * text;
   const double fits = 1.1 * text * room / std::max(1.0, drawing.text_width(plot.heading, 1.1 * text));
   const double height = std::clamp(fits, std::max(0.75 * text, 6.0), 1.1 * text);
   drawing.text(fitted(plot.heading, height, room, drawing), {panels * pitch / 2.0, 2.5 * text}, height, 0.5, kInk);
   std::vector<double> ticks;
   for (const double part : {0.0, 0.5, 1.0}) ticks.push_back(plot.low + part * (plot.high - plot.low));
-  // Zero belongs among them.
+  // Zero is a tick if it is in the range.
   if (plot.low < 0) ticks = {plot.low, 0, plot.high / 2, plot.high};
   for (int i = 0; i < panels; ++i) {
     const Axes axes{std::floor(i * pitch + left) + 0.5,

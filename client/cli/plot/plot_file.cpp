@@ -20,7 +20,7 @@ struct Destroy {
 };
 using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
 
-// What Cairo writes to, and the first error of that.
+// The file that Cairo writes to, and the first error of writing.
 struct Sink {
   OutputFile& file;
   absl::Status status;

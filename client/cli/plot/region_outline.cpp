@@ -7,8 +7,8 @@ namespace isofield {
 namespace {
 
 constexpr int kRounds = 3;
-constexpr int kParts = 16;  // that an interval is cut into in each round
-// Of a cell. What is shorter belongs to a single point of the lattice that the region touches.
+constexpr int kParts = 16;  // parts into which each round cuts an interval
+// The least length of a segment, in cells. Shorter ones surround a single lattice point that the region touches.
 constexpr double kLeastLength = 0.02;
 
 // A lattice edge, in lattice coordinates, that leads from outside (t = low) to inside (t = high).
@@ -33,7 +33,7 @@ absl::StatusOr<std::vector<Segment>> region_outline(double low, double high, int
   if (!inside.ok()) return inside.status();
   const auto index = [&](int i, int j) { return static_cast<std::size_t>(j) * side + i; };
 
-  // Along x from each lattice point, then along y.
+  // Each lattice point has two edges: the one along x, then the one along y.
   std::vector<Crossing> crossings;
   std::vector<int> crossing_of(2 * points.size(), -1);
   for (int j = 0; j < side; ++j) {
@@ -81,7 +81,7 @@ absl::StatusOr<std::vector<Segment>> region_outline(double low, double high, int
         if (crossing >= 0) ends[count++] = crossing;
       }
       if (count == 0) continue;
-      // Of four ends those that are near to each other belong together.
+      // Four ends are joined in the pairs that are nearer to each other.
       if (count == 4 &&
           length(ends[1], ends[2]) + length(ends[3], ends[0]) < length(ends[0], ends[1]) + length(ends[2], ends[3])) {
         std::swap(ends[0], ends[2]);

@@ -12,10 +12,10 @@ namespace {
 
 constexpr Color kLevel = 0x5a6e91;
 constexpr Color kSurface = 0x14326e;
-// Of the least and of the greatest value: red, green, blue.
+// The colours of the least and of the greatest value: red, green, blue.
 constexpr int kLow[] = {255, 255, 255}, kHigh[] = {150, 185, 225};
 
-// A colour for each value. The values' rows begin at the bottom, those of the colours at the top.
+// Returns a colour for each value. The values' rows begin at the bottom, those of the colours at the top.
 std::vector<Color> shades(const Slice& slice, float least, float most) {
   const double range = std::max(double{most} - least, 1e-30);
   const std::size_t columns = slice.counts[0], rows = slice.counts[1];
@@ -45,7 +45,7 @@ std::vector<Segment> segments_of(const LevelCurves& curves, const Axes& axes) {
   return segments;
 }
 
-// Multiples of 1, 2 or 5 times a power of ten, about four of them.
+// Returns about four ticks within [0, high], at multiples of 1, 2 or 5 times a power of ten.
 std::vector<double> ticks_to(double high) {
   const double rough = high / 4, decade = std::pow(10, std::floor(std::log10(rough)));
   const double step = decade * (rough < 2 * decade ? 1 : rough < 5 * decade ? 2 : 5);
@@ -59,7 +59,7 @@ std::vector<double> ticks_to(double high) {
 Drawing draw(const Slice& slice, const std::array<double, 2>& spacing, const std::string& heading, int size) {
   const double text = std::clamp(size / 45.0, 7.0, 24.0);
   const double left = 6 * text, right = 2 * text, top = 4.5 * text, bottom = 5 * text;
-  // A single row of samples is drawn as wide as it is apart from the next.
+  // A single row or column of samples is drawn as wide as the spacing.
   const double across = spacing[0] * std::max<double>(static_cast<double>(slice.counts[0]) - 1, 1);
   const double up = spacing[1] * std::max<double>(static_cast<double>(slice.counts[1]) - 1, 1);
   const double scale = size / std::max(across, up);

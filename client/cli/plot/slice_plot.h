@@ -9,9 +9,9 @@
 
 namespace isofield {
 
-// A slice as a picture: the field in shades, darker where it is greater, and its level curves, the first one heavily.
-// `spacing`: model units between samples along u and v. `size`: pixels of the plot's longer side; both sides have the
-// same scale.
+// Draws a slice: the field in shades, darker where it is greater, and its level curves, the first one heavily.
+// `spacing` is the distance between samples along u and v in model units, `size` the plot's longer side in pixels. Both
+// sides have the same scale.
 Drawing draw(const Slice& slice, const std::array<double, 2>& spacing, const std::string& heading, int size);
 
 }  // namespace isofield

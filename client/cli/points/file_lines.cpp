@@ -7,8 +7,8 @@
 
 namespace isofield {
 
-// Moves `place` to the next `wanted` from begin_ on, or to end_ where the block has none. `place` is the result of the
-// last search: what lies before it need not be searched again.
+// Moves `place` to the next `wanted` from begin_ on, or to end_ if the block has none. `place` is the result of the
+// last search, so the bytes before it need not be searched again.
 void FileLines::find_next(char wanted, std::size_t& place) const {
   place = std::max(place, begin_);
   if (place >= end_ || block_[place] == wanted) return;
@@ -16,7 +16,7 @@ void FileLines::find_next(char wanted, std::size_t& place) const {
   place = found ? static_cast<std::size_t>(static_cast<const char*>(found) - block_.data()) : end_;
 }
 
-// The end of the line that begins at begin_; nullptr where the line continues beyond the block.
+// Returns the end of the line that begins at begin_, or nullptr if the line continues beyond the block.
 const char* FileLines::find_line_end() {
   find_next('\n', next_lf_);
   find_next('\r', next_cr_);
@@ -39,7 +39,7 @@ absl::StatusOr<bool> FileLines::next(absl::string_view& line, const char* expect
       after_cr_ = end != nullptr && *end == '\r';
       begin_ += length + (end != nullptr ? 1 : 0);
       ++line_number_;
-      // A byte order mark is no part of the text.
+      // A byte order mark is not a part of the text.
       if (line_number_ == 1 && line.substr(0, 3) == "\xEF\xBB\xBF") line.remove_prefix(3);
       return true;
     }

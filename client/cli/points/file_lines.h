@@ -11,18 +11,20 @@
 
 namespace isofield {
 
-// The lines of a text, which is read in blocks. Lines end at LF, CR LF or CR. Single-threaded.
+// Reads a text line by line, in blocks of the file. Lines end at LF, CR LF or CR. It owns the file and is
+// single-threaded.
 class FileLines {
  public:
   explicit FileLines(InputFile file) : file_(std::move(file)) {}
 
-  // False at the end. The line lives until the next call. INVALID_ARGUMENT: longer than 1 MiB; says what is expected.
+  // Sets `line` to the next line, which is valid until the next call. Returns false at the end. INVALID_ARGUMENT: the
+  // line is longer than 1 MiB; the message says what is expected. Other errors are those of InputFile::read().
   absl::StatusOr<bool> next(absl::string_view& line, const char* expected);
 
   const std::string& name() const { return file_.name(); }
   // The file's name and the number of the line last returned: "points.csv:12".
   std::string place() const;
-  // INVALID_ARGUMENT at that place, with an excerpt of `text`, a part of the line.
+  // Returns INVALID_ARGUMENT with that place, an excerpt of `text`, which is a part of the line, and what is expected.
   absl::Status refuse(absl::string_view text, absl::string_view expected) const;
 
  private:

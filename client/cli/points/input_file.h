@@ -9,13 +9,14 @@
 
 namespace isofield {
 
-// The bytes of a file or of the standard input. The first bytes can be looked at before they are read. Single-threaded.
+// Reads the bytes of a file or of the standard input. The first bytes can be looked at before they are read. It owns
+// the file, which it closes, but not the standard input. It is single-threaded.
 class InputFile {
  public:
   // "-" is the standard input. NOT_FOUND, PERMISSION_DENIED ...: the file cannot be opened.
   static absl::StatusOr<InputFile> open(const std::string& path);
 
-  // The first bytes, at most 512; read() returns them again.
+  // Returns the first bytes, at most 512; read() returns them again.
   absl::string_view start() const { return start_; }
   // Reads up to `bytes`; fewer only at the end. UNKNOWN ...: the file cannot be read.
   absl::StatusOr<std::size_t> read(void* data, std::size_t bytes);
@@ -25,7 +26,7 @@ class InputFile {
 
  private:
   struct Close {
-    // The standard input is not ours.
+    // The standard input belongs to the process.
     void operator()(FILE* file) const {
       if (file != stdin) std::fclose(file);
     }

@@ -40,14 +40,16 @@ absl::Status parse_type(absl::string_view type, NpyNumber& number, std::size_t& 
   return absl::OkStatus();
 }
 
-// The number of elements in a field's shape, which is written as 3 or (3,). Nothing: it cannot be read or is too large.
+// Returns the number of elements in a field's shape, which is written as 3 or (3,). Nothing: the shape cannot be read,
+// or it is 0 or too large.
 std::optional<std::size_t> count_of(const PythonLiteral& shape) {
   std::size_t count = 1;
   const auto multiply = [&](const PythonLiteral& factor) {
     std::uint32_t number = 0;
     if (factor.kind != Kind::kNumber || !absl::SimpleAtoi(factor.text, &number) || number > kMostItemBytes)
       return false;
-    // Fields without elements have no size, so that the limit of a type's size could not limit how many there are.
+    // Fields without elements are refused. They have no size, so the limit on a type's size would not limit their
+    // number.
     if (number == 0) return false;
     count *= number;
     return count <= kMostItemBytes;
@@ -97,6 +99,7 @@ absl::Status add_fields(const PythonLiteral& type, const std::string& name, std:
   return absl::OkStatus();
 }
 
+// Returns a NumPy header of `bytes` bytes: the magic bytes, the version, the length, and the padded description.
 std::string with_magic(std::string description, std::size_t bytes) {
   description.resize(bytes - 11, ' ');
   description.push_back('\n');

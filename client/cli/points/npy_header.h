@@ -9,7 +9,7 @@
 
 namespace isofield {
 
-// How a number is stored in an array.
+// Says how a number is stored in a NumPy array.
 struct NpyNumber {
   char kind = 'f';  // 'f': IEEE float, 'i': signed, 'u': unsigned
   std::size_t bytes = 4;
@@ -21,7 +21,7 @@ struct NpyNumber {
 struct NpyField {
   std::string name;
   std::size_t offset = 0;
-  // Its `bytes` are 0 where the field is not a number but, for example, text.
+  // Its `bytes` are 0 if the field is not a number but, for example, text.
   NpyNumber number;
 };
 
@@ -40,12 +40,12 @@ struct NpyHeader {
 // numbers but, for example, pickled objects.
 absl::StatusOr<NpyHeader> parse_npy_header(absl::string_view dictionary);
 
-// The start of a NumPy file (version 1.0) with an array of float32 [rows, columns], row after row. It always has 128
-// bytes, so that it can be overwritten once the number of rows is known.
+// Returns the start of a NumPy file (version 1.0) with an array of float32 [rows, columns], row after row. It always
+// has 128 bytes, so that it can be overwritten once the number of rows is known.
 std::string npy_header(std::uint64_t rows, std::uint64_t columns);
 
-// The start of a NumPy file (version 1.0) with an array of structures [rows] that have a float32 for each name, in the
-// order of the names.
+// Returns the start of a NumPy file (version 1.0) with an array of structures [rows] that have a float32 for each name,
+// in the order of the names.
 std::string npy_header(std::uint64_t rows, const std::vector<std::string>& names);
 
 }  // namespace isofield

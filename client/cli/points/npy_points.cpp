@@ -13,9 +13,9 @@
 namespace isofield {
 namespace {
 
-// A header that describes one array of numbers has some hundred bytes.
+// The longest header that is accepted, in bytes. A header that describes one array of numbers has some hundred bytes.
 constexpr std::uint32_t kMaxHeader = 65536;
-// Arrays of more columns are refused: they are pictures, or have one point in each column.
+// Arrays of more columns are refused, because they are pictures or have one point in each column.
 constexpr std::uint64_t kMostColumns = 64;
 constexpr std::size_t kChunkBytes = 1 << 20;
 
@@ -39,13 +39,13 @@ class NpyPoints : public PointReader {
   }
 
   InputFile file_;
-  // The fields of x, y, z and, where there is one, the distance.
+  // The fields of x, y, z and, if there is one, the distance.
   std::vector<NpyField> chosen_;
   std::size_t row_bytes_ = 0;
   std::uint64_t rows_ = 0;
   std::uint64_t row_ = 0;
   std::vector<char> bytes_;
-  // All points of an array in Fortran order.
+  // An array in Fortran order is read as a whole: `whole_` then has all its points.
   bool is_whole_ = false;
   std::vector<float> whole_;
   std::string note_;
@@ -57,7 +57,7 @@ absl::StatusOr<NpyHeader> NpyPoints::read_dictionary() {
   const auto got = file_.read(start, 8);
   if (!got.ok()) return got.status();
   if (*got != 8) return refuse("the header is cut off");
-  // The length has 2 bytes in version 1, and 4 in versions 2 and 3; little-endian, as we are.
+  // The length has 2 bytes in version 1, and 4 in versions 2 and 3. It is little-endian, like this machine.
   if (start[6] < 1 || start[6] > 3) return refuse(absl::StrCat("version ", start[6], "; expected 1, 2 or 3"));
   std::uint32_t length = 0;
   const std::size_t length_bytes = start[6] == 1 ? 2 : 4;

@@ -12,7 +12,7 @@
 namespace isofield {
 
 // Reads points, or other vectors, in chunks, so that a file of any length needs the memory of one chunk. Only a NumPy
-// array in Fortran order needs the memory of all its points. Single-threaded.
+// array in Fortran order needs the memory of all its points. It is single-threaded.
 class PointReader {
  public:
   virtual ~PointReader() = default;
@@ -22,17 +22,17 @@ class PointReader {
   // not finite are refused here, where the line is known.
   virtual absl::Status read(std::size_t max_points, std::vector<float>& xyz) = 0;
 
-  // Sentences for the user about columns and rows that are left out, of the rows read so far.
+  // Returns sentences for the user about the columns and rows left out so far.
   virtual std::vector<std::string> notes() const = 0;
 };
 
 // Opens a file of points; "-" is the standard input. A file that begins with NumPy's magic bytes is an array, whatever
 // its name is. Any other file is text.
 //
-// The columns that hold the vectors are found so:
-//  - With a header (text) or fields (NumPy's structured types): those that find_vector() chooses by their names.
+// The columns that hold the vectors are found as follows:
+//  - With a header (text) or fields (NumPy's structured types) find_vector() chooses them by their names.
 //    INVALID_ARGUMENT: they are not there.
-//  - Without names: the first three, with a note on the others.
+//  - Without names they are the first three, with a note on the others, or columns 4 to 6 (VectorColumns::is_second).
 // Rows whose column "distance" is not finite are left out, with a note: `isofield ray` writes them for rays that hit
 // nothing.
 //
@@ -41,9 +41,9 @@ class PointReader {
 // type and shape (n,). Their numbers are integers or floats of any size and byte order, in C or Fortran order.
 absl::StatusOr<std::unique_ptr<PointReader>> open_points(const std::string& path, const VectorColumns& wanted = {});
 
-// The text about such files in --help.
+// The text in --help about such files.
 inline constexpr char kPointsHelp[] =
-    "Text with a point a line (.csv) or a NumPy array (.npy); - is the standard input. Columns or fields named x, y, "
-    "z, in any order; without names the first three. Rows of `isofield ray` that hit nothing are left out";
+    "Text with one point per line (.csv) or a NumPy array (.npy); - is the standard input. Columns or fields named x, "
+    "y, z, in any order; without names the first three. Rows of `isofield ray` that hit nothing are left out";
 
 }  // namespace isofield

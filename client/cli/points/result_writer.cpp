@@ -49,7 +49,8 @@ class CsvWriter : public ResultWriter {
   std::string text_;
 };
 
-// The number of rows is known at the end only: the header is written again then, with the same length.
+// Writes a NumPy array. The number of rows is known only at the end, so the header is then written again with the same
+// length.
 class NpyWriter : public ResultWriter {
  public:
   NpyWriter(bool gradient, OutputFile& file) : columns_(gradient ? 4 : 1), file_(file), status_(file.write(header())) {}

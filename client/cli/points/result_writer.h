@@ -10,19 +10,20 @@
 
 namespace isofield {
 
-// Writes the results of an evaluation as they arrive. Single-threaded.
+// Writes the results of an evaluation as they arrive. It is single-threaded.
 class ResultWriter {
  public:
   virtual ~ResultWriter() = default;
 
-  // xyz: [n, 3]; results: [n, 1], or [n, 4] with gradients.
+  // Writes results at n points: `xyz` has the shape [n, 3], `results` [n, 1] or, with gradients, [n, 4].
   virtual absl::Status write(std::span<const float> xyz, std::span<const float> results) = 0;
-  // After the last results; does not commit the file.
+  // Completes the file after the last results, and does not commit it.
   virtual absl::Status finish() = 0;
 };
 
-// By the name: *.npy is a NumPy array float32 [n, 1] or [n, 4] of the results alone; anything else text
-// "x,y,z,value[,gx,gy,gz]" with a header, nine significant digits each, which give the float32 back to the bit.
+// Makes a writer for the format that the name tells: *.npy is a NumPy array float32 [n, 1] or [n, 4] of the results
+// alone; anything else is text "x,y,z,value[,gx,gy,gz]" with a header and nine significant digits, which give a float32
+// back to the bit. The writer refers to `file`, which must outlive it.
 std::unique_ptr<ResultWriter> make_result_writer(const std::string& path, bool gradient, OutputFile& file);
 
 }  // namespace isofield

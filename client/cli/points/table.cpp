@@ -15,7 +15,8 @@ void append_number(float value, std::string& text) {
   text.append(digits, std::to_chars(digits, digits + sizeof(digits), value, std::chars_format::general, 9).ptr);
 }
 
-// In double quotes, those within doubled (RFC 4180), where a comma or a quote asks for it.
+// Appends a cell. If it has a comma, a quote or the end of a line in it, it is put in double quotes, and quotes in it
+// are doubled (RFC 4180).
 void append_cell(const std::string& value, std::string& text) {
   if (value.find_first_of(",\"\n\r") == std::string::npos) {
     text += value;

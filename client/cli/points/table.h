@@ -11,16 +11,17 @@
 
 namespace isofield {
 
-// Results in named columns, all of the same length.
+// A table of results: named columns of numbers or texts, all of the same length. Commands fill it and write it to a
+// file.
 class Table {
  public:
-  // Every `stride`-th number from the first.
+  // Adds a column of every `stride`-th number from the first, rounded to float32.
   template <class T>
   void add(const std::string& name, std::span<const T> numbers, std::size_t stride = 1) {
     std::vector<float>& column = columns_.emplace_back(Column{name, {}, {}}).numbers;
     for (std::size_t i = 0; i < numbers.size(); i += stride) column.push_back(static_cast<float>(numbers[i]));
   }
-  // Three columns of rows x, y, z.
+  // Adds three columns from vectors x, y, z that follow each other.
   void add_vectors(const std::array<std::string, 3>& names, std::span<const float> xyz) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       add(names[axis], xyz.empty() ? xyz : xyz.subspan(axis), 3);
@@ -31,11 +32,11 @@ class Table {
   }
   std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
 
-  // Writes the table in the format that the name's ending tells; does not commit the file.
+  // Writes the table in the format that the name's ending tells, and does not commit the file.
   //  - .npy: a NumPy array [rows] of structures, which have a float32 field for each column of numbers, under its name.
   //    Columns of texts are left out.
-  //  - .json: an object with an array for each column; infinities are null.
-  //  - Others: text with a header. Numbers have nine significant digits, which give a float32 back to the bit.
+  //  - .json: an object with an array for each column; infinities and NaN are null.
+  //  - Other endings: text with a header. Numbers have nine significant digits, which give a float32 back to the bit.
   absl::Status write(const std::string& path, OutputFile& file) const;
 
  private:

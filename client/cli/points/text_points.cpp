@@ -78,7 +78,7 @@ absl::Status TextPoints::parse(absl::string_view line, std::vector<float>& xyz) 
     return absl::OkStatus();
   }
   for (int axis = 0; axis < 3; ++axis) {
-    // Rounded to float32, as the server computes; 1e39 would become infinite there.
+    // Coordinates are rounded to float32, as the server computes. A number such as 1e39 would become infinite there.
     const float rounded = static_cast<float>(numbers[axis]);
     if (!std::isfinite(rounded)) return lines_.refuse(line, "expected finite coordinates that float32 can hold");
     xyz.push_back(rounded);

@@ -17,7 +17,7 @@ class TextPoints : public PointReader {
   std::vector<std::string> notes() const override;
 
  private:
-  // Reads up to the first row, and sets `line` to it. False: there is no row.
+  // Reads up to the first row, and sets `line` to it. Returns false if there is no row.
   absl::StatusOr<bool> read_head(absl::string_view& line);
   absl::Status choose_columns(const class TableHead& head, absl::string_view row);
   absl::Status parse(absl::string_view line, std::vector<float>& xyz);

@@ -14,18 +14,18 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr float kMargin = 1.08f;
 
-// The cosine of an angle in degrees, which is exactly 0 at right angles.
+// Returns the cosine of an angle in degrees, which is exactly 0 at right angles.
 double cosine(double degrees) {
   return std::fmod(degrees, 180) == 90 || std::fmod(degrees, 180) == -90 ? 0 : std::cos(degrees * kRadians);
 }
 
-// The largest of each expression over all positions; see place_camera.
+// The largest values of the expressions in extremes_of() over all positions; place_camera() explains them.
 struct Extremes {
   static constexpr float kLeast = std::numeric_limits<float>::lowest();
   float right = kLeast, left = kLeast, up = kLeast, down = kLeast, nearest = kLeast, farthest = kLeast;
 };
 
-// The extremes of the positions about `center`, in axes parallel to the camera's.
+// Returns the extremes of the positions about `center`, in axes parallel to the camera's.
 Extremes extremes_of(std::span<const float> positions, const Camera& camera, const glm::vec3& center, float tan_x,
                      float tan_y) {
   Extremes most;
@@ -43,8 +43,8 @@ Extremes extremes_of(std::span<const float> positions, const Camera& camera, con
 }
 
 // Sets target and distance. A point (u, v, w) in axes parallel to the camera's, about a centre near the model, is
-// inside the picture of a camera at (cx, cy, d) when |u - cx| <= (d - w) tan_x / margin, and alike for v: two linear
-// bounds on d and cx each, whose extremes over the points give the nearest camera.
+// inside the picture of a camera at (cx, cy, d) if |u - cx| <= (d - w) tan_x / margin, and likewise for v. These are
+// two linear bounds on d and cx, and two on d and cy; their extremes over the points give the nearest camera.
 void place_camera(std::span<const float> positions, const View& view, Camera& camera) {
   glm::vec3 low = {positions[0], positions[1], positions[2]};
   glm::vec3 high = low;
@@ -72,7 +72,7 @@ void View::turn_to(double azimuth, double elevation) {
   const double level = cosine(elevation), rise = cosine(elevation - 90);
   const double right = cosine(azimuth - 90), front = cosine(azimuth);
   direction = {0 - right * level, 0 - rise, 0 - front * level};
-  // In a picture from straight above, the front is at the bottom.
+  // A picture from straight above has the front at the bottom.
   up = level == 0 ? glm::dvec3(0 - rise * right, 0, 0 - rise * front) : glm::dvec3(0, 1, 0);
 }
 

@@ -27,8 +27,8 @@ bool encode(const Image& image, std::vector<std::uint8_t>& bytes) {
   png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  // Only runs of equal bytes are compressed: a shaded surface takes a fifth of the time of zlib's default strategy, and
-  // 13 % more bytes.
+  // Only runs of equal bytes are compressed. For a shaded surface this was measured to take a fifth of the time of
+  // zlib's default strategy, and 13 % more bytes.
   png_set_compression_level(png, 1);
   png_set_compression_strategy(png, Z_RLE);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP | PNG_FILTER_PAETH);

@@ -12,10 +12,11 @@ namespace isofield {
 namespace {
 
 constexpr int kSamples = 14;
-// Turns of the spiral that the samples lie on; coprime with their number, so that they do not line up.
+// The turns of the spiral on which the samples lie. The number is coprime with that of the samples, so that these do
+// not line up.
 constexpr float kTurns = 5;
 constexpr float kStrength = 1.7f;
-// Noise is averaged over squares of this edge, which the pattern of rotations repeats with.
+// The pattern of rotations repeats in squares of this edge, in samples; noise is averaged over such squares.
 constexpr int kPattern = 4;
 
 class Occlusion {
@@ -75,7 +76,7 @@ class Occlusion {
   std::array<glm::vec2, kSamples * kPattern * kPattern> spiral_;
 };
 
-// Averages over squares of kPattern, leaving out what lies at another depth.
+// Averages over squares of kPattern, leaving out samples at another depth.
 std::vector<float> smooth(const std::vector<float>& values, const Visibility& seen, float radius) {
   std::vector<float> out(values.size(), 1);
   for_each_band(seen.height, [&](int first, int last) {
@@ -85,7 +86,7 @@ std::vector<float> smooth(const std::vector<float>& values, const Visibility& se
             static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
         if (seen.inverse_depth[at] == 0) continue;
         const float depth = 1 / seen.inverse_depth[at];
-        // |1/a - 1/b| > radius, without a division for each neighbour.
+        // This tests |1/a - 1/b| > radius approximately, without a division for each neighbour.
         const float tolerance = radius / (depth * depth);
         float sum = 0;
         float weight = 0;

@@ -20,8 +20,8 @@ struct Corner {
   glm::vec3 normal{};
 };
 
-// Round x up or down to a whole number, within [0, most] and [-1, most]. x may be far outside of the picture, where a
-// conversion to int would be undefined.
+// These round x up or down to a whole number, within [0, most] and [-1, most]. They clamp x first, because it may be
+// far outside of the picture, where a conversion to int would be undefined.
 int ceiling(float x, int most) {
   return static_cast<int>(std::ceil(std::clamp(x, 0.0f, static_cast<float>(most))));
 }
@@ -58,7 +58,7 @@ class Painter {
 
   void draw(const Corner& a, const Corner& b, const Corner& c) {
     if (a.inverse_depth == 0 || b.inverse_depth == 0 || c.inverse_depth == 0) return;
-    // Rows go down, so a counter-clockwise triangle has a negative area here.
+    // Rows go down, so a counter-clockwise triangle, which is a front face, has a negative area here.
     const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     if (!(area < 0)) return;
     const int x0 = ceiling(std::min({a.x, b.x, c.x}) - 0.5f, seen_.width);

@@ -10,12 +10,13 @@
 
 namespace isofield {
 
-// What is seen at each sample of a picture, row by row from the top.
+// The depth and the normal of the surface that is seen at each sample of a picture, row by row from the top.
 struct Visibility {
   int width = 0, height = 0;
-  // 1 / distance along the view axis; 0 where nothing is seen.
+  // This is 1 / distance along the view axis, or 0 if nothing is seen.
   std::vector<float> inverse_depth;
-  // x and y of the unit normal in camera space, each scaled to 16 bits with sign; z is positive and follows.
+  // These are x and y of the unit normal in camera space, each scaled to 16 bits with sign. As z is positive, it
+  // follows from them.
   std::vector<std::int16_t> normals;
 
   glm::vec3 normal(std::size_t sample) const {
@@ -25,7 +26,8 @@ struct Visibility {
   }
 };
 
-// Draws the front faces of a mesh with normals. Triangles that come very near to the camera are left out.
+// Draws the front faces of a mesh, which must have normals. Triangles very near to the camera or behind it are left
+// out.
 Visibility rasterize(const Mesh& mesh, const Camera& camera, int width, int height);
 
 }  // namespace isofield

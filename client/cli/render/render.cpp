@@ -19,14 +19,14 @@ namespace {
 // Samples along each edge of a pixel.
 constexpr int kSupersampling = 2;
 
-// Linear light.
+// These colours are in linear light.
 constexpr glm::vec3 kSurface = {0.72f, 0.21f, 0.075f};
 constexpr glm::vec3 kBackgroundTop = {0.93f, 0.945f, 0.965f};
 constexpr glm::vec3 kBackgroundBottom = {0.52f, 0.58f, 0.66f};
 constexpr glm::vec3 kSkyLight = {0.46f, 0.52f, 0.62f};
 constexpr glm::vec3 kGroundLight = {0.17f, 0.14f, 0.13f};
 
-// Directions to the lights in camera space: they turn with the viewer, so that every view is lit alike.
+// A light. Directions lead to the light in camera space, so lights turn with the viewer and every view is lit alike.
 struct Light {
   glm::vec3 direction;
   glm::vec3 color;
@@ -34,9 +34,9 @@ struct Light {
 const std::array<Light, 3> kLights = {{{unit_vector({-0.5f, 0.75f, 0.62f}), {1.05f, 1.00f, 0.92f}},
                                        {unit_vector({0.85f, 0.10f, 0.45f}), {0.22f, 0.26f, 0.34f}},
                                        {unit_vector({0.25f, 0.55f, -0.85f}), {0.50f, 0.54f, 0.60f}}}};
-// Of the distance between the nearest and the farthest point: how far the background shows through the farthest.
+// The part of the background's colour in that of the farthest point of the model; the nearest point has none of it.
 constexpr float kHaze = 0.15f;
-// Of the model's extent.
+// The reach of occlusion as a part of the model's extent.
 constexpr float kOcclusionReach = 0.06f;
 
 glm::vec3 background(int y, int height) {
@@ -49,7 +49,8 @@ float power32(float x) {
   return x;
 }
 
-// `view`: unit vector from the surface to the camera; camera space, like `normal`.
+// Returns the colour of the surface in linear light. `view` is the unit vector from the surface to the camera; it is in
+// camera space, like `normal`. `sky_seen` is the part of the sky that the surface sees, within [0, 1].
 glm::vec3 shade(const glm::vec3& normal, const glm::vec3& view, float sky_seen) {
   glm::vec3 light = glm::mix(kGroundLight, kSkyLight, 0.5f + 0.5f * normal.y) * sky_seen;
   float glint = 0;
@@ -65,7 +66,7 @@ glm::vec3 shade(const glm::vec3& normal, const glm::vec3& view, float sky_seen) 
   return kSurface * light * 0.9f + white * (0.16f * glint * sky_seen) + kSkyLight * rim;
 }
 
-// Bytes of sRGB for linear light within [0, 1], in steps finer than a byte's.
+// Converts linear light within [0, 1] to bytes of sRGB, by a table whose steps are finer than those of a byte.
 class SrgbTable {
  public:
   SrgbTable() {
@@ -84,7 +85,7 @@ class SrgbTable {
   std::array<std::uint8_t, kSteps + 1> bytes_;
 };
 
-// Every second sample of every second row: what occlusion, which is smooth, is estimated on.
+// Returns every second sample of every second row. Occlusion is smooth, so it is estimated on these alone.
 Visibility thin_out(const Visibility& seen) {
   Visibility out;
   out.width = seen.width / kSupersampling;
@@ -132,7 +133,7 @@ Image paint(const Visibility& seen, const std::vector<float>& sky_seen, const Ca
               static_cast<std::size_t>(sy) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(sx);
           const glm::vec3 color =
               seen.inverse_depth.empty() ? behind : shade_sample(seen, sample, sx, sy, camera, sky, behind);
-          // Averaged as bytes of sRGB, which keeps edges between light and dark even to the eye.
+          // The samples are averaged as bytes of sRGB, which keeps edges between light and dark even to the eye.
           sum[0] += srgb(color.x);
           sum[1] += srgb(color.y);
           sum[2] += srgb(color.z);
@@ -146,7 +147,7 @@ Image paint(const Visibility& seen, const std::vector<float>& sky_seen, const Ca
   return image;
 }
 
-// The decimal number with the fewest digits that rounds to this float32, as a person would write it.
+// Returns the decimal number with the fewest digits that rounds to this float32, as a person would write it.
 double decimal(float value) {
   char digits[32];
   double number = value;
@@ -166,7 +167,7 @@ absl::StatusOr<Image> render(const Mesh& mesh, const RenderOptions& options) {
   if (mesh.normals.size() != mesh.positions.size()) return absl::InvalidArgumentError("the mesh has no normals");
   const Camera camera = fit_camera(mesh.positions, options.view, static_cast<double>(options.width) / options.height);
   const Visibility seen = rasterize(mesh, camera, kSupersampling * options.width, kSupersampling * options.height);
-  // The model fills the picture, so the picture's extent at its middle is the model's.
+  // The picture's extent at the model's middle; a model that fills the picture has about the same extent.
   const float extent = (camera.near + camera.far) * std::min(camera.tan_x, camera.tan_y);
   const std::vector<float> sky_seen = ambient_visibility(thin_out(seen), camera, kOcclusionReach * extent);
   return paint(seen, sky_seen, camera, options.width, options.height);

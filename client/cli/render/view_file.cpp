@@ -114,7 +114,7 @@ absl::StatusOr<std::optional<View>> read_view_file(const std::string& path) {
     // Only the first of the message's three lines is repeated; the others point into the text.
     const std::string reason = parsed.message().ToString();
     return absl::InvalidArgumentError(absl::StrCat(path, ": not a view in JSON: ", reason.substr(0, reason.find('\n')),
-                                                   "; mend it, or delete it to begin anew"));
+                                                   "; correct it, or delete it to start again"));
   }
   auto view = read_view(object);
   if (!view.ok()) return absl::InvalidArgumentError(absl::StrCat(path, ": ", view.status().message()));

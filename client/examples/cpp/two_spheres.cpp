@@ -1,4 +1,5 @@
-// Blends two spheres, asks for the field between them, and meshes them: two_spheres [ADDRESS]
+// This program stores a scene of two blended spheres on the server, asks for the field between them, and meshes them.
+// Usage: two_spheres [ADDRESS]
 #include <isofield/client.h>
 
 #include <cstdio>

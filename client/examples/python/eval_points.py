@@ -30,19 +30,19 @@ EXAMPLE = """{"nodes": [
 
 
 def tensor(points):
-    """An array of points [n, 3] as the message that the contract states: bytes, type and shape."""
+    """Returns an array of points [n, 3] as the Tensor message of scene.proto: bytes, type and shape."""
     points = np.ascontiguousarray(points, dtype="<f4")
     return scene_pb2.Tensor(dtype=scene_pb2.Tensor.FLOAT32, shape=points.shape, data=points.tobytes())
 
 
 def array(message):
-    """The other way."""
+    """Returns the numbers of a Tensor message as an array."""
     types = {scene_pb2.Tensor.FLOAT32: "<f4", scene_pb2.Tensor.FLOAT64: "<f8", scene_pb2.Tensor.UINT32: "<u4"}
     return np.frombuffer(message.data, dtype=types[message.dtype]).reshape(tuple(message.shape))
 
 
 def evaluate(fields, scene, points):
-    """Value and gradient at points [n, 3] as an array [n, 4], streamed in chunks: any n."""
+    """Returns value and gradient at points [n, 3] as an array [n, 4]. It streams chunks, so n may be of any size."""
 
     def requests():
         # The first message says what is asked; every message may carry points.

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Evaluates a sphere at random points through memory shared with isofieldd, with nothing of isofield but its .proto files.
+"""Evaluates a sphere at random points through memory shared with isofieldd.
 
-Generate the Python code as eval_points.py says. Then, with isofieldd --listen unix:PATH --shared-memory running:
+It uses nothing of isofield but its .proto files. Generate the Python code as eval_points.py says. Then, with isofieldd
+--listen unix:PATH --shared-memory running:
 
     PYTHONPATH=generated client/examples/python/eval_shared.py --server unix:PATH [--points N]
 """
@@ -20,7 +21,7 @@ from isofield.v1 import scene_pb2, shared_memory_pb2
 
 
 class Region:
-    """Memory that the server sees, too, for as long as `connection` is open (shared_memory.proto)."""
+    """Memory shared with the server for as long as `connection` is open (shared_memory.proto)."""
 
     def __init__(self, path, size):
         descriptor = os.memfd_create("points", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
@@ -37,7 +38,7 @@ class Region:
         self.name = answer.region
 
     def array(self, offset, shape):
-        """An array of float32, and the message that names it."""
+        """Returns a float32 array that begins at `offset` (bytes) of the memory, and the message that names it."""
         numbers = np.frombuffer(self.memory, "<f4", shape[0] * shape[1], offset).reshape(shape)
         return numbers, scene_pb2.SharedTensor(
             region=self.name, offset=offset, dtype=scene_pb2.Tensor.FLOAT32, shape=shape)

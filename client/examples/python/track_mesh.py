@@ -17,13 +17,13 @@ NAME = "track_mesh-example"
 
 
 def array(message):
-    """A Tensor as an array."""
+    """Returns the numbers of a Tensor message as an array."""
     types = {scene_pb2.Tensor.FLOAT32: "<f4", scene_pb2.Tensor.UINT32: "<u4"}
     return np.frombuffer(message.data, dtype=types[message.dtype]).reshape(tuple(message.shape))
 
 
 def random_scene(spheres):
-    """Spheres in a cube, blended."""
+    """Returns a scene of blended spheres in a cube, and their centres."""
     scene = scene_pb2.Scene()
     centers = np.random.default_rng(1).uniform(-1, 1, (spheres, 3))
     for center in centers:
@@ -33,7 +33,7 @@ def random_scene(spheres):
 
 
 class Mesh:
-    """A mesh by bricks: (x, y, z) to the brick's positions and corners."""
+    """Keeps a mesh as bricks: `bricks` maps a brick's place (x, y, z) to its positions and corners."""
 
     def __init__(self):
         self.bricks = {}
@@ -56,12 +56,12 @@ class Mesh:
 
     @staticmethod
     def order(place):
-        """The order in which bricks are joined: floor(z / 8), then the Morton code."""
+        """Returns the key that orders bricks when they are joined: floor(z / 8), then the Morton code."""
         code = sum((place[axis] >> bit & 1) << 3 * bit + axis for bit in range(21) for axis in range(3))
         return place[2] // 8, code
 
     def join(self):
-        """Positions [n, 3] and triangles [m, 3], by numbers of vertices."""
+        """Returns positions [n, 3] and triangles [m, 3], whose corners are numbers of vertices."""
         places = sorted(self.bricks, key=self.order)
         first, vertices = {}, 0
         for place in places:
@@ -70,7 +70,7 @@ class Mesh:
         positions, triangles = [np.empty((0, 3), "<f4")], [np.empty((0, 3), "<u4")]
         for x, y, z in places:
             points, corners = self.bricks[x, y, z]
-            # The bricks that a corner's bits 24 to 26 can name.
+            # Bits 24 to 26 of a corner name one of these 8 bricks: the one that has its vertex.
             starts = [first.get((x - (i & 1), y - (i >> 1 & 1), z - (i >> 2)), 0) for i in range(8)]
             positions.append(points)
             triangles.append(np.array(starts, "<u4")[corners >> 24] + (corners & 0xFFFFFF))
@@ -78,7 +78,7 @@ class Mesh:
 
 
 def follow(answers, mesh):
-    """Reads one answer: bricks that came, bricks that are empty now, and the summary."""
+    """Reads one answer; returns how many bricks came, how many are empty now, and the summary."""
     came = gone = 0
     for answer in answers:
         put, removed = mesh.apply(answer.update)
@@ -98,7 +98,7 @@ def main():
     with grpc.insecure_channel(arguments.server) as channel:
         catalog = scene_service_pb2_grpc.SceneServiceStub(channel)
         scene, centers = random_scene(arguments.spheres)
-        # Messages to the server: each is sent once the answer to the one before it is read.
+        # This queue holds messages to the server. Each is sent once the answer to the one before it is read.
         requests = queue.Queue()
         try:
             catalog.PutScene(scene_service_pb2.PutSceneRequest(name=NAME, scene=scene))
@@ -120,7 +120,7 @@ def main():
             assert (len(positions), len(triangles)) == (summary.vertices, summary.triangles)
             assert triangles.max(initial=0) < max(len(positions), 1)
             print(f"{len(positions)} vertices, {len(triangles)} triangles")
-            requests.put(None)  # no more
+            requests.put(None)  # ends the stream of requests
             catalog.DeleteScene(scene_service_pb2.DeleteSceneRequest(name=NAME))
         except grpc.RpcError as error:
             raise SystemExit(f"{error.code().name}: {error.details()}")
