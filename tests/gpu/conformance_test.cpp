@@ -243,8 +243,7 @@ TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
                                                       {"gradient_bulge_0.25.csv", {Silhouette::Kind::kBulge, 0.25}},
                                                       {"gradient_bulge_0.8.csv", {Silhouette::Kind::kBulge, 0.8}}};
   for (const auto& [file, silhouette] : files) {
-    ISOFIELD_NEEDS_SHARED(std::string("golden/") + file);
-    const auto table = test_support::read_csv(test_support::shared_file(std::string("golden/") + file));
+    const auto table = test_support::read_csv(test_support::checkout_file(std::string("tests/golden/") + file));
     ASSERT_TRUE(table.ok()) << table.status();
     const Operator op = operators::Gradient{.silhouette = silhouette};
     std::vector<float> rows;
@@ -424,8 +423,7 @@ TEST(Conformance, FoldedIntersectionsOfSumsAreTheReferences) {
 
 void expect_golden(const std::string& file, std::size_t operands,
                    const std::function<Operator(const std::vector<double>&)>& make) {
-  ISOFIELD_NEEDS_SHARED("golden/" + file);
-  const auto table = test_support::read_csv(test_support::shared_file("golden/" + file));
+  const auto table = test_support::read_csv(test_support::checkout_file("tests/golden/" + file));
   ASSERT_TRUE(table.ok()) << table.status();
   double worst = 0;
   // Rows of the same parameters go together.

@@ -53,8 +53,7 @@ std::vector<Float4> probe_blend(const std::vector<Float4>& arguments, const Silh
 }
 
 void expect_golden_blend(const std::string& file, const Silhouette& silhouette, double tolerance) {
-  ISOFIELD_NEEDS_SHARED("golden/" + file);
-  const auto table = test_support::read_csv(test_support::shared_file("golden/" + file));
+  const auto table = test_support::read_csv(test_support::checkout_file("tests/golden/" + file));
   ASSERT_TRUE(table.ok()) << table.status();
   std::vector<Float4> arguments;
   for (const auto& row : table->rows) {
@@ -82,9 +81,8 @@ TEST(OperatorOnDevice, ReproducesGoldenOpenings) {
   const std::pair<const char*, operators::Opening> openings[] = {
       {"camel", operators::camel()}, {"organic", operators::organic()}, {"contact", operators::contact()}};
   for (const auto& [name, opening] : openings) {
-    const std::string file = std::string("golden/opening_") + name + ".csv";
-    ISOFIELD_NEEDS_SHARED(file);
-    const auto table = test_support::read_csv(test_support::shared_file(file));
+    const std::string file = std::string("opening_") + name + ".csv";
+    const auto table = test_support::read_csv(test_support::checkout_file("tests/golden/" + file));
     ASSERT_TRUE(table.ok()) << table.status();
     std::vector<float> alphas;
     for (const auto& row : table->rows) alphas.push_back(static_cast<float>(row[0]));

@@ -303,13 +303,12 @@ TEST(OperatorVolume, ReproducesGoldenBlends) {
     const char* file;
     Silhouette silhouette;
     double error_of_a_cell;  // times the side of a cell
-  } cases[] = {{"golden/gradient_smooth.csv", {}, 0.32},
-               {"golden/gradient_bulge_0.25.csv", {Silhouette::Kind::kBulge, 0.25}, 0.45},
-               {"golden/gradient_bulge_0.8.csv", {Silhouette::Kind::kBulge, 0.8}, 2}};
+  } cases[] = {{"gradient_smooth.csv", {}, 0.32},
+               {"gradient_bulge_0.25.csv", {Silhouette::Kind::kBulge, 0.25}, 0.45},
+               {"gradient_bulge_0.8.csv", {Silhouette::Kind::kBulge, 0.8}, 2}};
   VolumeCache cache(device(), kernels());
   for (const auto& c : cases) {
-    ISOFIELD_NEEDS_SHARED(c.file);
-    const auto table = test_support::read_csv(test_support::shared_file(c.file));
+    const auto table = test_support::read_csv(test_support::checkout_file(std::string("tests/golden/") + c.file));
     ASSERT_TRUE(table.ok()) << table.status();
     std::vector<Float4> arguments;
     for (const auto& row : table->rows) {

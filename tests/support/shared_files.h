@@ -1,4 +1,4 @@
-// The files that lie beside the checkout, in shared/: golden values, papers' scenes.
+// The files that lie beside the checkout, in shared/, and those of the checkout itself, such as golden values.
 #pragma once
 
 #include <absl/status/statusor.h>
