@@ -27,7 +27,7 @@ class Process {
   // The exit code, or 128 + the signal that ended it.
   int wait();
   // Blocks until it has written a line that holds `text` to standard error, and returns the line; "" when it has closed
-  // the stream without one.
+  // the stream without one, or does not write it within two minutes.
   std::string wait_for_error_line(const std::string& text) { return wait_for_line(errors_, text); }
   // The same for standard output.
   std::string wait_for_output_line(const std::string& text) { return wait_for_line(output_, text); }
