@@ -19,6 +19,7 @@
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 #include "support/shared_files.h"
+#include "support/worst.h"
 
 namespace isofield::gpu_test {
 namespace {
@@ -51,12 +52,12 @@ TEST(Conformance, EveryOperatorIsTheSameOnTheDevice) {
       const float* r = &results[i * (1 + c.operands)];
       const FieldState e = exact(c.op, x);
       const double scale = std::max(1.0, std::abs(e.field.v));
-      worst = std::max(worst, std::abs(r[0] - e.field.v) / scale);
+      test_support::keep_worst(worst, std::abs(r[0] - e.field.v) / scale);
       if (!is_smooth(c.op, x, e)) continue;
       ++smooth;
       const double partials[] = {e.field.d.x, e.field.d.y, e.field.d.z};
       for (std::size_t k = 0; k < c.operands; ++k) {
-        worst_partial = std::max(worst_partial, std::abs(r[1 + k] - partials[k]) / std::max(1.0, length(e.field.d)));
+        test_support::keep_worst(worst_partial, std::abs(r[1 + k] - partials[k]) / std::max(1.0, length(e.field.d)));
       }
     }
     std::cout << c.name << ": values off by " << worst << ", partials by " << worst_partial << " at " << smooth
@@ -93,10 +94,10 @@ TEST(Conformance, PowersKeepTheirDigitsAtTheGreatestExponents) {
       const auto at = rows.begin() + static_cast<std::ptrdiff_t>(i * c.operands);
       const FieldState e = exact(c.op, {at, at + static_cast<std::ptrdiff_t>(c.operands)});
       const float* r = &results[i * (1 + c.operands)];
-      worst = std::max(worst, std::abs(r[0] - e.field.v) / std::max(1.0, std::abs(e.field.v)));
+      test_support::keep_worst(worst, std::abs(r[0] - e.field.v) / std::max(1.0, std::abs(e.field.v)));
       const double partials[] = {e.field.d.x, e.field.d.y, e.field.d.z};
       for (std::size_t k = 0; k < c.operands; ++k) {
-        worst_partial = std::max(worst_partial, std::abs(r[1 + k] - partials[k]) / std::max(1.0, length(e.field.d)));
+        test_support::keep_worst(worst_partial, std::abs(r[1 + k] - partials[k]) / std::max(1.0, length(e.field.d)));
       }
     }
     std::cout << c.name << ": values off by " << worst << ", partials by " << worst_partial << "\n";
@@ -124,7 +125,7 @@ TEST(Conformance, OperatorsThatFollowAnAngleAreTheSameOnTheDevice) {
     for (int i = 0; i < kRows; ++i) {
       const float* a = &rows[4 * i];
       const FieldState e = exact_at(c.op, a[0], a[1], a[2], a[3]);
-      worst = std::max(worst, std::abs(results[4 * i] - e.field.v) / std::max(1.0, std::abs(e.field.v)));
+      test_support::keep_worst(worst, std::abs(results[4 * i] - e.field.v) / std::max(1.0, std::abs(e.field.v)));
       for (int k = 0; k < 4; ++k) ASSERT_TRUE(std::isfinite(results[4 * i + k])) << "row " << i;
     }
     std::cout << c.name << ": values off by " << worst << "\n";
@@ -172,8 +173,8 @@ class PartialsByDifferences {
       if (!slope || std::abs(value(k, x + h) - 2 * value(k, x) + value(k, x - h)) > 0.1 * h) continue;
       ++settled_;
       const double scale = std::max(1.0, std::abs(*slope));
-      exact_ = std::max(exact_, std::abs(partials[k] - *slope) / scale);
-      if (device != nullptr) device_ = std::max(device_, std::abs(device[k] - *slope) / scale);
+      test_support::keep_worst(exact_, std::abs(partials[k] - *slope) / scale);
+      if (device != nullptr) test_support::keep_worst(device_, std::abs(device[k] - *slope) / scale);
     }
   }
   void report(const std::string& what) const {
@@ -230,8 +231,8 @@ TEST(Conformance, PartialsAreDifferencesOfExactValues) {
     EXPECT_LE(differences.exact(), 1e-4);
     EXPECT_LE(differences.device(), 1e-4);
     EXPECT_LE(differences.left_out(), 0.2);
-    worst = std::max(worst, differences.exact());
-    worst_device = std::max(worst_device, differences.device());
+    test_support::keep_worst(worst, differences.exact());
+    test_support::keep_worst(worst_device, differences.device());
   }
   test_support::figure("partials off differences, double precision", worst);
   test_support::figure("partials off differences, device", worst_device);
@@ -243,8 +244,7 @@ TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
                                                       {"gradient_bulge_0.25.csv", {Silhouette::Kind::kBulge, 0.25}},
                                                       {"gradient_bulge_0.8.csv", {Silhouette::Kind::kBulge, 0.8}}};
   for (const auto& [file, silhouette] : files) {
-    ISOFIELD_NEEDS_SHARED(std::string("golden/") + file);
-    const auto table = test_support::read_csv(test_support::shared_file(std::string("golden/") + file));
+    const auto table = test_support::read_csv(test_support::checkout_file(std::string("tests/golden/") + file));
     ASSERT_TRUE(table.ok()) << table.status();
     const Operator op = operators::Gradient{.silhouette = silhouette};
     std::vector<float> rows;
@@ -425,9 +425,9 @@ TEST(Conformance, FoldedIntersectionsOfSumsAreTheReferences) {
 
 void expect_golden(const std::string& file, std::size_t operands,
                    const std::function<Operator(const std::vector<double>&)>& make) {
-  ISOFIELD_NEEDS_SHARED("golden/" + file);
-  const auto table = test_support::read_csv(test_support::shared_file("golden/" + file));
+  const auto table = test_support::read_csv(test_support::checkout_file("tests/golden/" + file));
   ASSERT_TRUE(table.ok()) << table.status();
+  ASSERT_GE(table->rows.size(), 400u);
   double worst = 0;
   // The device evaluates all rows with the same parameters together.
   std::map<std::vector<double>, std::vector<std::size_t>> groups;
@@ -442,7 +442,7 @@ void expect_golden(const std::string& file, std::size_t operands,
     }
     const std::vector<float> results = on_device({file, make(parameters), operands}, rows);
     for (std::size_t n = 0; n < places.size(); ++n) {
-      worst = std::max(worst, std::abs(results[n * (1 + operands)] - table->rows[places[n]].back()));
+      test_support::keep_worst(worst, std::abs(results[n * (1 + operands)] - table->rows[places[n]].back()));
     }
   }
   std::cout << file << ": max error " << worst << " of " << table->rows.size() << " rows\n";
@@ -465,7 +465,7 @@ TEST(Conformance, ConicsOfAnyTightnessAreTheSameOnTheDevice) {
     double worst = 0, worst_partial = 0, from_union = 0;
     for (std::size_t i = 0; 2 * i < rows.size(); ++i) {
       const FieldState e = exact(op, {rows[2 * i], rows[2 * i + 1]});
-      worst = std::max(worst, std::abs(results[3 * i] - e.field.v));
+      test_support::keep_worst(worst, std::abs(results[3 * i] - e.field.v));
       worst_partial = std::max(
           {worst_partial, std::abs(results[3 * i + 1] - e.field.d.x), std::abs(results[3 * i + 2] - e.field.d.y)});
       from_union = std::max(from_union, std::min(rows[2 * i], rows[2 * i + 1]) - e.field.v);

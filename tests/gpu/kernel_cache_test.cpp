@@ -4,19 +4,19 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <array>
+#include <barrier>
 #include <spirv-tools/libspirv.hpp>
+#include <thread>
 #include <vector>
 
 #include "engine/compile_ahead.h"
 #include "engine/kernels/specialised_kernels.h"
-#include "engine/kernels/spirv_store.h"
 #include "engine/residency/tape_windows.h"
 #include "gpu/commands.h"
 #include "gpu/gpu_environment.h"
 #include "shaders/specialise.h"
 #include "support/scene_text.h"
-#include "support/temporary_folder.h"
 
 namespace isofield::gpu_test {
 namespace {
@@ -86,32 +86,38 @@ TEST(KernelCache, AFreedKernelLivesOnInTheCommandsThatUseIt) {
   EXPECT_TRUE(watched.expired());
 }
 
-TEST(SpirvStore, KeepsWhatWasUsedLast) {
-  const test_support::TemporaryFolder folder;
-  const std::vector<std::uint32_t> kernel(1000);
-  const auto is_there = [&](const engine::SpirvStore& store, const char* text) { return store.load(text).has_value(); };
-  const auto age = [&](int hours) {  // makes all present files older
-    for (const auto& file : std::filesystem::directory_iterator(folder.path())) {
-      std::filesystem::last_write_time(file, file.last_write_time() - std::chrono::hours(hours));
-    }
-  };
-  {
-    const engine::SpirvStore store(folder.path(), 1 << 20);
-    store.save("first", kernel);
-    age(1);
-    store.save("second", kernel);
-    age(1);
-    store.save("third", kernel);
-    age(1);
-    EXPECT_TRUE(is_there(store, "first"));  // and so it is used last
+TEST(KernelCache, OneKernelThatSeveralThreadsWantIsCompiledOnce) {
+  engine::KernelCache kernels(device());
+  constexpr int kThreads = 4;
+  std::array<gpu::SharedPipeline, kThreads> got;
+  std::barrier start(kThreads);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&, t] {
+      start.arrive_and_wait();
+      auto kernel = kernels.get(shaders::kMeshShare);
+      EXPECT_TRUE(kernel.ok()) << kernel.status();
+      if (kernel.ok()) got[t] = *std::move(kernel);
+    });
   }
-  const engine::SpirvStore small(folder.path(), 9000);  // holds two kernels
-  EXPECT_TRUE(is_there(small, "first"));
-  EXPECT_FALSE(is_there(small, "second"));
-  EXPECT_TRUE(is_there(small, "third"));
-  small.save("fourth", kernel);  // more than a sixteenth of the limit, so one old file goes at once
-  EXPECT_TRUE(is_there(small, "fourth"));
-  EXPECT_EQ(is_there(small, "first") + is_there(small, "third"), 1);
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_TRUE(got[0]);
+  for (const gpu::SharedPipeline& kernel : got) EXPECT_EQ(kernel, got[0]);
+  EXPECT_EQ(kernels.counts().compiled, 1u);
+  EXPECT_EQ(kernels.counts().held, 1u);
+}
+
+TEST(KernelCache, ScenesOfTheSameKindsShareAKernelAndOthersDoNot) {
+  const KernelKind kind = kind_of(kBlend);
+  const std::string moved = R"({"name": "a", "sphere": {"center": [0, 3, 0], "radius": 2, "range": 1}},
+    {"name": "b", "sphere": {"radius": 0.8, "range": 0.5}},
+    {"gradient": {"children": ["a", "b"], "opening": {"preset": "ORGANIC"}}})";
+  EXPECT_EQ(kind_of(moved).constants(), kind.constants());
+  EXPECT_NE(kind_of(kSpheres + R"({"ricci": {"children": ["a", "b"], "exponent": 2}})").constants(), kind.constants());
+  EXPECT_NE(kind_of(kSpheres + R"({"box": {"half_size": [1, 1, 1], "range": 0.5}},
+    {"gradient": {"children": ["a", "b", "#2"], "opening": {"preset": "CAMEL"}}})").constants(), kind.constants());
+  EXPECT_NE(KernelKind::single_leaf(resident(test_support::scene_of_nodes(kBlend))->tape()).constants(),
+            kind.constants());
 }
 
 TEST(CompileAhead, MakesTheKernelsOfTheNextEdit) {

@@ -12,6 +12,7 @@
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 #include "support/shared_files.h"
+#include "support/worst.h"
 
 namespace isofield::gpu_test {
 namespace {
@@ -53,8 +54,7 @@ std::vector<Float4> probe_blend(const std::vector<Float4>& arguments, const Silh
 }
 
 void expect_golden_blend(const std::string& file, const Silhouette& silhouette, double tolerance) {
-  ISOFIELD_NEEDS_SHARED("golden/" + file);
-  const auto table = test_support::read_csv(test_support::shared_file("golden/" + file));
+  const auto table = test_support::read_csv(test_support::checkout_file("tests/golden/" + file));
   ASSERT_TRUE(table.ok()) << table.status();
   std::vector<Float4> arguments;
   for (const auto& row : table->rows) {
@@ -63,7 +63,7 @@ void expect_golden_blend(const std::string& file, const Silhouette& silhouette, 
   const std::vector<Float4> results = probe_blend(arguments, silhouette);
   double worst = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    worst = std::max(worst, std::abs(results[i][0] - table->rows[i][3]));
+    test_support::keep_worst(worst, std::abs(results[i][0] - table->rows[i][3]));
   }
   std::cout << file << ": max error " << worst << "\n";
   EXPECT_GT(results.size(), 400u);
@@ -82,17 +82,17 @@ TEST(OperatorOnDevice, ReproducesGoldenOpenings) {
   const std::pair<const char*, operators::Opening> openings[] = {
       {"camel", operators::camel()}, {"organic", operators::organic()}, {"contact", operators::contact()}};
   for (const auto& [name, opening] : openings) {
-    const std::string file = std::string("golden/opening_") + name + ".csv";
-    ISOFIELD_NEEDS_SHARED(file);
-    const auto table = test_support::read_csv(test_support::shared_file(file));
+    const std::string file = std::string("opening_") + name + ".csv";
+    const auto table = test_support::read_csv(test_support::checkout_file("tests/golden/" + file));
     ASSERT_TRUE(table.ok()) << table.status();
+    ASSERT_GE(table->rows.size(), 400u);
     std::vector<float> alphas;
     for (const auto& row : table->rows) alphas.push_back(static_cast<float>(row[0]));
     std::vector<float> results(2 * alphas.size());
     ASSERT_TRUE(evaluator().evaluate_opening(opening, alphas, results).ok());
     double worst = 0;
     for (std::size_t i = 0; i < alphas.size(); ++i) {
-      worst = std::max(worst, std::abs(results[2 * i] - table->rows[i][1]));
+      test_support::keep_worst(worst, std::abs(results[2 * i] - table->rows[i][1]));
     }
     std::cout << file << ": max error " << worst << "\n";
     EXPECT_LE(worst, 1e-6) << file;
@@ -175,8 +175,8 @@ TEST(OperatorOnDevice, AgreesWithExactArithmeticOnRandomInput) {
     for (std::size_t i = 0; i < results.size(); ++i) {
       const Float4& a = arguments[i];
       const operators::Blend exact = operators::gradient_blend(a[0], a[1], a[2], silhouette);
-      worst = std::max(worst, std::abs(results[i][0] - exact.g));
-      // A bulge folds at f1 = f2, and its partials jump there.
+      test_support::keep_worst(worst, std::abs(results[i][0] - exact.g));
+      // A bulge folds at f1 = f2: its partials jump.
       if (silhouette.kind == Silhouette::Kind::kBulge && std::abs(a[0] - a[1]) < 0.02) continue;
       worst_partial = std::max({worst_partial, std::abs(results[i][1] - exact.g1), std::abs(results[i][2] - exact.g2),
                                 std::abs(results[i][3] - exact.gt)});

@@ -12,6 +12,7 @@
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 #include "support/smoothness.h"
+#include "support/worst.h"
 
 namespace isofield::gpu_test {
 namespace {
@@ -41,10 +42,10 @@ void expect_as_reference(const std::string& nodes, double tolerance) {
   int smooth = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const reference::Sample e = evaluator.evaluate(points[i]);
-    worst = std::max(worst, std::abs(samples[i].value - e.value));
+    test_support::keep_worst(worst, std::abs(samples[i].value - e.value));
     if (test_support::gradient_variation(evaluator, points[i], 1e-5) > 1e-3) continue;
     ++smooth;
-    worst_gradient = std::max(worst_gradient, length(samples[i].gradient - e.gradient));
+    test_support::keep_worst(worst_gradient, length(samples[i].gradient - e.gradient));
   }
   std::cout << "values off by " << worst << ", gradients by " << worst_gradient << " at " << smooth
             << " smooth points\n";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "support/random_scene.h"
+#include "support/worst.h"
 
 namespace isofield::integration_test {
 namespace {
@@ -50,12 +51,11 @@ Ball::Errors Ball::errors(std::span<const float> xyz, std::span<const float> res
   for (std::size_t i = 0; i < count; ++i) {
     const float* const p = &xyz[3 * i];
     const float* const result = &results[columns * i];
-    // std::max would lose NaN.
-    if (const double e = std::abs(result[0] - value(p)); !(e <= errors.value)) errors.value = e;
+    test_support::keep_worst(errors.value, std::abs(result[0] - value(p)));
     if (columns < 4) continue;
     const std::array<double, 3> g = gradient(p);
-    const double e = std::hypot(result[1] - g[0], result[2] - g[1], result[3] - g[2]) / steepest;
-    if (!(e <= errors.gradient)) errors.gradient = e;
+    test_support::keep_worst(errors.gradient,
+                             std::hypot(result[1] - g[0], result[2] - g[1], result[3] - g[2]) / steepest);
   }
   return errors;
 }

@@ -49,6 +49,7 @@ Daemon::Daemon(const std::vector<std::string>& flags, const std::string& listen)
     : process_(command(flags, listen.empty() ? "unix:" + directory_.path("socket") : listen)) {
   const std::string line = process_.wait_for_error_line(kListening);
   if (line.empty()) {
+    process_.signal(SIGKILL);
     process_.wait();
     std::cerr << "isofieldd does not start:\n" << process_.errors();
     std::exit(1);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -95,6 +96,7 @@ int Process::wait() {
 }
 
 std::string Process::wait_for_line(const Stream& stream, const std::string& text) {
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
   std::unique_lock lock(mutex_);
   for (;;) {
     const std::string& all = stream.text;
@@ -104,8 +106,8 @@ std::string Process::wait_for_line(const Stream& stream, const std::string& text
       const std::size_t begin = before == std::string::npos ? 0 : before + 1;
       if (end != std::string::npos) return all.substr(begin, end - begin);
     }
-    if (stream.is_closed) return "";
-    changed_.wait(lock);
+    if (stream.is_closed || std::chrono::steady_clock::now() >= limit) return "";
+    changed_.wait_until(lock, limit);
   }
 }
 

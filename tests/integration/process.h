@@ -28,7 +28,7 @@ class Process {
   // Waits for the end. Returns the exit code, or 128 + the signal that ended the process.
   int wait();
   // Blocks until the process has written a line with `text` to standard error, and returns the line. Returns "" if the
-  // process closes the stream without such a line.
+  // process closes the stream without such a line, or does not write it within two minutes.
   std::string wait_for_error_line(const std::string& text) { return wait_for_line(errors_, text); }
   // Does the same for standard output.
   std::string wait_for_output_line(const std::string& text) { return wait_for_line(output_, text); }

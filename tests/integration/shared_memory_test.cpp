@@ -312,24 +312,54 @@ TEST_F(SharedMemory, ClientsThatComeAndGoLeaveNothing) {
 }
 
 TEST_F(SharedMemory, AClientThatScribblesSpoilsItsOwnResultsAlone) {
-  Region region(socket_);
-  region.put(0, xyz_);
+  // Small calls on one kept scene go to the device together.
+  ASSERT_TRUE(ok(peer_.put("ball", ball_.scene())));
+  const auto call_on = [&](const Region& region) {
+    v1::EvaluateRequest r = request(region);
+    *r.mutable_scene() = named("ball");
+    return r;
+  };
+  Region scribbled(socket_), other(socket_);
   std::atomic<bool> is_over = false;
   std::thread scribbler([&] {
     const std::vector<float> wild(3 * kPoints, std::numeric_limits<float>::quiet_NaN());
     while (!is_over) {
-      region.put(0, wild);
-      region.put(kResultAt, wild);
-      region.put(0, xyz_);
+      scribbled.put(0, wild);
+      scribbled.put(kResultAt, wild);
+      scribbled.put(0, xyz_);
     }
   });
-  for (int i = 0; i < 100; ++i) {
+  std::thread caller([&] {
+    Peer peer(daemon_->address());
+    for (int i = 0; i < 100; ++i) {
+      v1::EvaluateResponse response;
+      const grpc::Status status = peer.evaluate(call_on(scribbled), &response);
+      if (!status.ok()) expect_refused(status, grpc::StatusCode::INVALID_ARGUMENT, {"expected a finite float32"});
+    }
+    is_over = true;
+  });
+  // Meanwhile another client asks for points of its own, in shared memory and over the wire.
+  for (std::uint64_t round = 1; !is_over; ++round) {
+    const std::vector<float> points = points_around(ball_, 1000 * round, kPoints);
+    other.put(0, points);
+    other.put(kResultAt, std::vector<float>(4 * kPoints, -1));
     v1::EvaluateResponse response;
-    const grpc::Status status = peer_.evaluate(request(region), &response);
-    if (!status.ok()) expect_refused(status, grpc::StatusCode::INVALID_ARGUMENT, {"expected a finite float32"});
+    EXPECT_TRUE(ok(peer_.evaluate(call_on(other), &response)));
+    const std::vector<float> shared = other.get(kResultAt, 4 * kPoints);
+    std::vector<float> wire;
+    EXPECT_TRUE(ok(peer_.evaluate(named("ball"), points, true, &wire)));
+    for (const std::vector<float>& results : {shared, wire}) {
+      EXPECT_EQ(results.size(), 4 * kPoints);
+      if (results.size() != 4 * kPoints) continue;
+      const Ball::Errors errors = ball_.errors(points, results);
+      EXPECT_LE(errors.value, 2e-5);
+      EXPECT_LE(errors.gradient, 1e-3);
+    }
+    EXPECT_EQ(other.get(0, 3 * kPoints), points) << "points are only read";
   }
-  is_over = true;
+  caller.join();
   scribbler.join();
+  EXPECT_TRUE(ok(peer_.remove("ball")));
   expect_serving(daemon_->address());
 }
 

@@ -1,5 +1,5 @@
-// Finds the files that lie beside the checkout, in shared/ (golden values, the papers' scenes), and reads tables of
-// numbers.
+// Finds the files that lie beside the checkout, in shared/, and those of the checkout itself, such as golden values.
+// Reads tables of numbers.
 #pragma once
 
 #include <absl/status/statusor.h>

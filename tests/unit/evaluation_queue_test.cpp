@@ -8,6 +8,8 @@
 #include <new>
 #include <thread>
 
+#include "support/eventually.h"
+
 namespace isofield::engine {
 namespace {
 
@@ -75,8 +77,8 @@ class Queue : public testing::Test {
     const std::size_t before = queue_.waiting() + turns_.waiting();
     r.thread = std::thread([this, &r] { r.status = queue_.evaluate(r.batch); });
     // The first small request waits in the queue, and its caller waits for the turn.
-    while (queue_.waiting() + turns_.waiting() <= before) std::this_thread::yield();
-    while (queue_.waiting() > 0 && turns_.waiting() == 0) std::this_thread::yield();
+    EXPECT_TRUE(test_support::eventually([&] { return queue_.waiting() + turns_.waiting() > before; }));
+    EXPECT_TRUE(test_support::eventually([&] { return queue_.waiting() == 0 || turns_.waiting() > 0; }));
     return r;
   }
   void release() {

@@ -165,7 +165,7 @@ TEST(GradientBlend, IsFiniteEverywhere) {
 }
 
 void expect_golden(const std::string& name, const Silhouette& silhouette) {
-  const auto table = test_support::read_csv(test_support::shared_file(name));
+  const auto table = test_support::read_csv(test_support::checkout_file("tests/golden/" + name));
   ASSERT_TRUE(table.ok()) << table.status().message();
   ASSERT_EQ(table->columns, (std::vector<std::string>{"f1", "f2", "theta", "g"}));
   ASSERT_GT(table->rows.size(), 100u);
@@ -179,16 +179,13 @@ void expect_golden(const std::string& name, const Silhouette& silhouette) {
 }
 
 TEST(GradientBlend, GoldenSmooth) {
-  ISOFIELD_NEEDS_SHARED("golden/gradient_smooth.csv");
-  expect_golden("golden/gradient_smooth.csv", {});
+  expect_golden("gradient_smooth.csv", {});
 }
 TEST(GradientBlend, GoldenBulgeQuarter) {
-  ISOFIELD_NEEDS_SHARED("golden/gradient_bulge_0.25.csv");
-  expect_golden("golden/gradient_bulge_0.25.csv", {Kind::kBulge, 0.25});
+  expect_golden("gradient_bulge_0.25.csv", {Kind::kBulge, 0.25});
 }
 TEST(GradientBlend, GoldenBulgeFourFifths) {
-  ISOFIELD_NEEDS_SHARED("golden/gradient_bulge_0.8.csv");
-  expect_golden("golden/gradient_bulge_0.8.csv", {Kind::kBulge, 0.8});
+  expect_golden("gradient_bulge_0.8.csv", {Kind::kBulge, 0.8});
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(Opening, IsFiniteForTheMostExtremeSlopes) {
 }
 
 void expect_golden(const std::string& name, const Opening& opening) {
-  const auto table = test_support::read_csv(test_support::shared_file(name));
+  const auto table = test_support::read_csv(test_support::checkout_file("tests/golden/" + name));
   ASSERT_TRUE(table.ok()) << table.status().message();
   ASSERT_EQ(table->columns, (std::vector<std::string>{"alpha", "theta"}));
   ASSERT_GT(table->rows.size(), 100u);
@@ -118,16 +118,13 @@ void expect_golden(const std::string& name, const Opening& opening) {
 }
 
 TEST(Opening, GoldenCamel) {
-  ISOFIELD_NEEDS_SHARED("golden/opening_camel.csv");
-  expect_golden("golden/opening_camel.csv", camel());
+  expect_golden("opening_camel.csv", camel());
 }
 TEST(Opening, GoldenOrganic) {
-  ISOFIELD_NEEDS_SHARED("golden/opening_organic.csv");
-  expect_golden("golden/opening_organic.csv", organic());
+  expect_golden("opening_organic.csv", organic());
 }
 TEST(Opening, GoldenContact) {
-  ISOFIELD_NEEDS_SHARED("golden/opening_contact.csv");
-  expect_golden("golden/opening_contact.csv", contact());
+  expect_golden("opening_contact.csv", contact());
 }
 
 }  // namespace

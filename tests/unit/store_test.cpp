@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <barrier>
 #include <set>
 #include <thread>
 
@@ -143,16 +144,16 @@ TYPED_TEST(StoreTest, GetsSeveralNamesAtOneMoment) {
 TYPED_TEST(StoreTest, OfManyConditionalPutsOneIsDone) {
   this->put("a", "0");
   std::atomic<int> done = 0;
+  std::barrier all_have_tried(4);
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&] {
       for (std::uint64_t version = 1; version < 200; ++version) {
         // The first thread puts the next version.
         if (this->put("a", "x", {.version = version}).outcome == Outcome::kDone) ++done;
-        while (true) {
-          const std::string name = "a";
-          if (this->store_.get(Kind::kScene, std::span(&name, 1)).value().front()->version > version) break;
-        }
+        all_have_tried.arrive_and_wait();
+        const std::string name = "a";
+        EXPECT_GT(this->store_.get(Kind::kScene, std::span(&name, 1)).value().front()->version, version);
       }
     });
   }

@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "support/eventually.h"
+
 namespace isofield::gpu {
 namespace {
 
@@ -24,7 +26,7 @@ class Line {
       const Turns::Turn turn = turns_.take(urgency);
       order_.push_back(place);  // the turn is the lock
     });
-    while (turns_.waiting() < threads_.size()) std::this_thread::yield();
+    EXPECT_TRUE(test_support::eventually([this] { return turns_.waiting() >= threads_.size(); }));
   }
   std::vector<std::size_t> finish() {
     held_ = {};

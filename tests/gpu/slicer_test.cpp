@@ -1,11 +1,11 @@
-// Tests slices of fields, their level curves, and measures of meshes.
+// Tests slices of fields and their level curves.
+#include "engine/surface/slicer.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "engine/simplify/mesh_measure.h"
-#include "engine/surface/slicer.h"
 #include "gpu/gpu_environment.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
@@ -58,45 +58,6 @@ TEST(Slicer, DrawsTheCircleOfASphere) {
   }
   EXPECT_NEAR(area, M_PI, 0.01) << "counter-clockwise about greater values";
   EXPECT_EQ(slice->lines[1].starts, std::vector<std::uint32_t>{0});
-}
-
-TEST(IsoLines, EndAtTheBorderAndJoinByTheMean) {
-  // Two corners are above the level. They are joined if the mean of the four corners is above it, too.
-  const std::vector<float> joined{1, 0, 0, 1}, parted{1, 0, 0, 0.9f};
-  EXPECT_EQ(engine::iso_lines(joined, {2, 2}, 0.4f).starts, (std::vector<std::uint32_t>{0, 2, 4}));
-  const engine::Polylines apart = engine::iso_lines(parted, {2, 2}, 0.5f);
-  ASSERT_EQ(apart.starts, (std::vector<std::uint32_t>{0, 2, 4}));
-  // Each line is around its own corner.
-  for (const std::size_t line : {0u, 4u}) {
-    const float* p = &apart.points[line];
-    EXPECT_LE(std::hypot(p[0] - p[2], p[1] - p[3]), 0.75);
-  }
-  EXPECT_EQ(engine::iso_lines(joined, {4, 1}, 0.5f).starts, std::vector<std::uint32_t>{0});
-}
-
-TEST(MeshMeasure, FollowsTheFormulas) {
-  engine::Mesher mesher(device(), kernels(), workers());
-  const auto ball = mesher.mesh(*resident(ball_scene()), {.cell_size = 0.02}, {});
-  ASSERT_TRUE(ball.ok());
-  const engine::MeshMeasures m = engine::measure(*ball);
-  EXPECT_NEAR(m.volume, 4.0 / 3 * M_PI, 2e-3);
-  EXPECT_NEAR(m.area, 4 * M_PI, 3e-3);
-  EXPECT_LE(length(m.centroid - dvec3{0.1, 0.2, -0.3}), 1e-4);
-  EXPECT_LE(length(m.bounds.min - dvec3{-0.9, -0.8, -1.3}), 1e-3);
-  EXPECT_LE(length(m.bounds.max - dvec3{1.1, 1.2, 0.7}), 1e-3);
-  const auto box =
-      mesher.mesh(*resident(test_support::scene_of_nodes(
-                      R"([{"box": {"center": [100, 0, 0], "half_size": [1, 0.5, 0.25], "range": 0.25}}])")),
-                  {.cell_size = 0.01}, {});
-  ASSERT_TRUE(box.ok());
-  const engine::MeshMeasures b = engine::measure(*box);
-  // The edges are chamfered within a cell.
-  EXPECT_NEAR(b.volume, 1, 2e-3);
-  EXPECT_NEAR(b.area, 7, 0.1);
-  EXPECT_LE(length(b.centroid - dvec3{100, 0, 0}), 1e-4);
-  const engine::MeshMeasures none = engine::measure({});
-  EXPECT_EQ(none.volume, 0);
-  EXPECT_TRUE(none.bounds.empty());
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
+#include "operators/functional.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "operators/functional.h"
 #include "support/random_scene.h"
 
 namespace isofield::operators {

@@ -1,10 +1,11 @@
 // Compares the conic blend as the paper writes it with the form that is free of cancellation.
+#include "operators/bt2.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "operators/bt2.h"
 #include "support/random_scene.h"
 
 namespace isofield::operators {

@@ -1,10 +1,13 @@
+#include "blobtree/primitives/leaf.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "blobtree/primitives/falloff.h"
-#include "blobtree/primitives/leaf.h"
 #include "blobtree/scene/scene_reader.h"
 #include "blobtree/tape/compiler.h"
 #include "support/random_scene.h"
@@ -23,7 +26,7 @@ double field_of(const Leaf& leaf, const dvec3& p) {
 }
 
 // A rotation stretches by 1 up to rounding, and the rounding must not make the least length too short.
-TEST(LeafPlacer, TheLeastLengthIsAcceptedWhateverWayItIsTurned) {
+TEST(PlaceLeaf, TheLeastLengthIsAcceptedWhateverWayItIsTurned) {
   Random random(4);
   for (int i = 0; i < 200; ++i) {
     v1::Scene scene;
@@ -40,7 +43,7 @@ TEST(LeafPlacer, TheLeastLengthIsAcceptedWhateverWayItIsTurned) {
   }
 }
 
-TEST(LeafPlacer, NothingReachesBeyondTheSupport) {
+TEST(PlaceLeaf, NothingReachesBeyondTheSupport) {
   double fullest = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Tape tape = compile_or_die(read_or_die(test_support::random_scene(seed, {.nodes = 12})));
@@ -67,7 +70,7 @@ TEST(LeafPlacer, NothingReachesBeyondTheSupport) {
   EXPECT_GT(fullest, 0.2);
 }
 
-TEST(LeafPlacer, SupportsAreTightForPlainShapes) {
+TEST(PlaceLeaf, SupportsAreTightForPlainShapes) {
   // Each shape touches its box on both sides of every axis, so there is a field just inside of the box's faces.
   for (const char* text :
        {R"({"sphere": {"center": [1,2,3], "radius": 0.5, "range": 0.25}})",
@@ -89,7 +92,7 @@ TEST(LeafPlacer, SupportsAreTightForPlainShapes) {
   }
 }
 
-TEST(LeafPlacer, StretchBoundsTheSlopeOfTheDistance) {
+TEST(PlaceLeaf, StretchBoundsTheSlopeOfTheDistance) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Tape tape = compile_or_die(read_or_die(test_support::random_scene(seed, {.nodes = 12})));
     Random random(seed);
@@ -102,7 +105,7 @@ TEST(LeafPlacer, StretchBoundsTheSlopeOfTheDistance) {
   }
 }
 
-TEST(LeafPlacer, SimilarPlacementsAreRigid) {
+TEST(PlaceLeaf, SimilarPlacementsAreRigid) {
   const Tape tape = compile_or_die(read_or_die(scene_of_nodes(
       R"({"segment": {"a": [0,0,0], "b": [1,2,2], "radius_a": 0.5, "radius_b": 0.25, "range": 0.25}},
          {"transform": {"child": "#0", "scale": [3,-3,3], "rotation": [1,2,3,40], "translation": [5,6,7]}})")));
@@ -117,7 +120,7 @@ TEST(LeafPlacer, SimilarPlacementsAreRigid) {
   EXPECT_NEAR(leaf.domain.to_local.stretch().most, 1, 1e-12);
 }
 
-TEST(LeafPlacer, UniformScaleMayBeLargeOrSmall) {
+TEST(PlaceLeaf, UniformScaleMayBeLargeOrSmall) {
   // Only the lengths in the world count. They are 2e-5 and 2e5.
   for (const char* scale : {"1e-5", "1e5"}) {
     const auto scene = read_scene(scene_of_nodes(std::string(R"({"sphere": {"radius": 1, "range": 2}},
@@ -138,7 +141,7 @@ void expect_refused(const std::string& nodes) {
   EXPECT_NE(std::string(tape.status().message()).find("nodes[0] 'ball'"), std::string::npos) << tape.status().message();
 }
 
-TEST(LeafPlacer, LengthsThatLeaveTheirRangeAreRefused) {
+TEST(PlaceLeaf, LengthsThatLeaveTheirRangeAreRefused) {
   const std::string ball = R"({"name": "ball", "sphere": {"radius": 1e3, "range": 1}}, )";
   expect_refused(
       ball + R"({"transform": {"child": "ball", "scale": [1e-5]}}, {"transform": {"child": "#1", "scale": [1e-5]}})");
@@ -154,7 +157,7 @@ TEST(LeafPlacer, LengthsThatLeaveTheirRangeAreRefused) {
                            {"transform": {"child": "#2", "rotation": [3,2,3,70], "scale": [1e-5,1,1]}})");
 }
 
-TEST(LeafPlacer, ScalesThatASignedFieldCannotBeDividedByAreRefused) {
+TEST(PlaceLeaf, ScalesThatASignedFieldCannotBeDividedByAreRefused) {
   const std::string ball = R"({"name": "ball", "sphere": {"radius": 1, "law": "SIGNED"}}, )";
   // The products leave the range, then float32, and at last the range of doubles.
   for (const char* factor : {"1e-6", "1e6"}) {
@@ -176,6 +179,67 @@ TEST(LeafPlacer, ScalesThatASignedFieldCannotBeDividedByAreRefused) {
   const std::string text(compile(*refused).status().message());
   EXPECT_NE(text.find("scale it by 1e-10 to 1e-10"), std::string::npos) << text;
   EXPECT_NE(text.find("a scale of at least 1e-09"), std::string::npos) << text;
+}
+
+// The one leaf of a scene of one node.
+Leaf leaf_of(const std::string& node) {
+  return compile_or_die(read_or_die(scene_of_nodes(node))).leaves.at(0);
+}
+
+TEST(LeafBounds, HoldAtRandomPointsOfRandomBoxes) {
+  double width = 0, of_balls = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Tape tape = compile_or_die(read_or_die(test_support::random_scene(seed, {.nodes = 30})));
+    Random random(seed);
+    for (const Leaf& leaf : tape.leaves) {
+      for (int n = 0; n < 4; ++n) {
+        dvec3 centre = random.point(-1.6, 1.6);
+        // On the skeleton, where the distance has no gradient, too.
+        if (leaf.operand == Operand::kSegment && n == 0) {
+          const double along = std::get<shapes::Segment>(leaf.shape).length * random.number(-0.1, 1.1);
+          centre = leaf.domain.anchor + leaf.domain.to_local.linear[2] * along;
+        }
+        const double size = std::exp(random.number(-6, 0.5));
+        const dvec3 half = random.point(0, size);
+        const CentredBox box(Box{centre - half, centre + half});
+        const Interval bounds = distance_bounds(leaf, box);
+        for (int i = 0; i < 16; ++i) {
+          // Corners are where the greatest distances lie.
+          const auto side = [&](int axis) { return i < 8 ? (i >> axis & 1) * 2.0 - 1 : random.number(-1, 1); };
+          const dvec3 p = box.centre + dvec3{box.half.x * side(0), box.half.y * side(1), box.half.z * side(2)};
+          ASSERT_GE(leaf.distance(p), bounds.lo) << "seed " << seed << " leaf " << leaf.node;
+          ASSERT_LE(leaf.distance(p), bounds.hi) << "seed " << seed << " leaf " << leaf.node;
+        }
+        if (leaf.operand == Operand::kSphere || leaf.operand == Operand::kSegment) {
+          width += bounds.hi - bounds.lo;
+          of_balls += 2 * box.radius;
+        }
+      }
+    }
+  }
+  std::printf("spheres and segments: %.2f of the width that the balls around the boxes give\n", width / of_balls);
+  EXPECT_LT(width, 0.85 * of_balls);
+}
+
+TEST(LeafBounds, OfSpheresAreReached) {
+  const Leaf leaf = leaf_of(R"({"sphere": {"center": [1, 0, 0], "radius": 0.5, "range": 1}})");
+  const Interval beside = distance_bounds(leaf, CentredBox({{2, 1, 1}, {3, 2, 2}}));
+  EXPECT_NEAR(beside.lo, std::sqrt(3) - 0.5, 1e-5);
+  EXPECT_NEAR(beside.hi, std::sqrt(12) - 0.5, 1e-5);
+  const Interval around = distance_bounds(leaf, CentredBox({{0, -1, -1}, {2, 1, 1}}));
+  EXPECT_NEAR(around.lo, -0.5, 1e-5);
+  EXPECT_NEAR(around.hi, std::sqrt(3) - 0.5, 1e-5);
+}
+
+TEST(LeafBounds, OfRoundConesFollowTheirNormal) {
+  // Beside the cone of a tilt with sine 0.6, whose normal there is (0.8, 0, 0.6).
+  const Leaf leaf = leaf_of(R"({"segment": {"a": [0,0,0], "b": [0,0,10], "radius_a": 7, "radius_b": 1, "range": 1}})");
+  const dvec3 p = dvec3{0, 0, 5} + dvec3{0.8, 0, 0.6} * 6.0;
+  const double h = 0.01;
+  const Interval bounds = distance_bounds(leaf, CentredBox({p - dvec3{h, h, h}, p + dvec3{h, h, h}}));
+  EXPECT_NEAR(leaf.distance(p), 2, 1e-12);
+  EXPECT_NEAR(bounds.lo, 2 - 1.4 * h, 2e-4);
+  EXPECT_NEAR(bounds.hi, 2 + 1.4 * h, 2e-4);
 }
 
 }  // namespace
