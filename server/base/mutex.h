@@ -1,6 +1,6 @@
-// A mutex whose use clang checks (-Wthread-safety): a member says which mutex guards it, a function which one its caller
-// must hold. It wraps std::mutex, which ThreadSanitizer understands; it does not understand absl::Mutex of a library
-// that was built without it.
+// A mutex whose use clang checks (-Wthread-safety): a member says which mutex guards it, and a function says which one its
+// caller must hold. It wraps std::mutex, because ThreadSanitizer does not see the locks of an Abseil that was built
+// without it, as Debian's is.
 #pragma once
 
 #include <absl/base/thread_annotations.h>
@@ -21,7 +21,7 @@ class ABSL_LOCKABLE Mutex {
   std::mutex mutex_;
 };
 
-// Holds a mutex until the end of its block, but for the time between unlock() and lock().
+// Holds a mutex until the end of its block, except between its own unlock() and lock().
 class ABSL_SCOPED_LOCKABLE MutexLock {
  public:
   explicit MutexLock(Mutex& mutex) ABSL_EXCLUSIVE_LOCK_FUNCTION(mutex) : mutex_(mutex) { mutex.lock(); }
@@ -45,8 +45,8 @@ class ABSL_SCOPED_LOCKABLE MutexLock {
   bool is_held_ = true;
 };
 
-// What threads that hold a mutex wait for, which releases it meanwhile. A wait may end without a call of notify: callers
-// look again at what they wait for.
+// Threads that hold a mutex wait here until another thread notifies them. The mutex is released while they wait. A wait
+// may also end without a notification, so that callers must check again what they wait for.
 class Condition {
  public:
   void wait(Mutex& mutex) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex) {
@@ -54,7 +54,7 @@ class Condition {
     condition_.wait(lock);
     lock.release();
   }
-  // Returns false where the time has come instead.
+  // Returns false if the time has come.
   bool wait_until(Mutex& mutex, std::chrono::steady_clock::time_point time) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex) {
     std::unique_lock lock(mutex.mutex_, std::adopt_lock);
     const bool is_in_time = condition_.wait_until(lock, time) == std::cv_status::no_timeout;

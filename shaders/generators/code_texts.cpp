@@ -128,13 +128,14 @@ void append_question(std::string& text, Opcodes opcodes, Applies applies, const 
 
 std::string codes_text(Operands operands, Opcodes opcodes) {
   using blobtree::Codes;
-  std::string text = head("What the instructions of tapes hold.", "CODES_GLSL");
+  std::string text = head("The codes in the instructions of tapes.", "CODES_GLSL");
   append_specialisation(text, words(operands.size()), words(opcodes.size()));
   append_codes(text, "OPERAND_", engine::kOperandWordName, operands);
   append_codes(text, "OPERATOR_", engine::kOpcodeWordName, opcodes);
   absl::StrAppend(
       &text,
-      "// Of all instructions, or of this one. Comparisons that the first decides are dropped with their branches.\n"
+      "// Returns whether the one code of all instructions, or else the code of this one, is the candidate. Where `only`\n"
+      "// decides, which is constant, the driver drops the comparison with its branch.\n"
       "bool is_code(uint only, uint code, uint candidate) { return only == candidate || code == candidate; }\n\n");
   const auto number = [](auto value) { return literal(static_cast<std::uint32_t>(value)); };
   absl::StrAppend(&text, "const uint FORM_UNION = ", number(operators::Form::kUnion),
@@ -177,7 +178,7 @@ std::string leaves_text(Operands operands) {
 }
 
 std::string operators_text(Opcodes opcodes) {
-  std::string text = head("What an opcode makes of its operands.", "OPERATORS_GLSL");
+  std::string text = head("Applies an opcode to its operands.", "OPERATORS_GLSL");
   std::set<std::string> files;
   for (const operators::OpcodeTraits& o : opcodes) files.insert(text_of(o.file));
   append_includes(text, "operators/", files);

@@ -1,4 +1,4 @@
-// What the bricks of a mesh hold, to compare meshes that were made in different ways.
+// The contents of a mesh brick by brick, to compare meshes that were made in different ways.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Place {
 struct InOrder {
   bool operator()(const Place& a, const Place& b) const { return engine::comes_before(a, b); }
 };
-// What one brick holds.
+// The vertices and triangles of one brick.
 struct Content {
   std::vector<float> positions, normals;
   std::vector<std::uint32_t> corners;

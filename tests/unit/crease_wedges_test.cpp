@@ -97,7 +97,7 @@ TEST(CreaseWedges, ASingleEdgeCutsNothing) {
   const CreaseWedges wedges = crease_wedges(mesh);
   expect_sound(mesh, wedges);
   EXPECT_EQ(wedges.vertices.size(), 6u);
-  // Where the fold goes on to the border, the vertex between and the one at the border have two wedges each.
+  // If the fold continues to the border, the vertex between and the one at the border have two wedges each.
   mesh.positions[3 * 4 + 2] = 0;
   const CreaseWedges longer = crease_wedges(mesh);
   expect_sound(mesh, longer);
