@@ -54,8 +54,10 @@ set -euo pipefail
 trap 'echo "$PAGE:$LINENO: exit code $?: $BASH_COMMAND" >&2' ERR
 daemons=()
 stop_daemons() {
-  local code=$?
-  [ ${#daemons[@]} -eq 0 ] || { kill "${daemons[@]}" && wait "${daemons[@]}"; } || code=1
+  local code=$? daemon
+  for daemon in "${daemons[@]}"; do
+    { kill "$daemon" && wait "$daemon"; } || { echo "$PAGE: a daemon ended with an error" >&2; code=1; }
+  done
   exit $code
 }
 trap stop_daemons EXIT
