@@ -85,7 +85,8 @@ class Faults:
         self.found = []
 
     def add(self, page, line, text):
-        self.found.append(f"{page}:{line}: {text}")
+        if text:
+            self.found.append(f"{page}:{line}: {text}")
 
 
 def pages(checkout):
@@ -222,8 +223,7 @@ def figures_script(lines):
         commands = re.findall(r"`(isofield [^`]*)`", line)
         script.commands += len(commands)
         if commands:
-            script.put(number, "\n".join(f"{c} {beside}" if c.startswith("isofield render") else c for c in commands)
-                       .replace("\n", "; "))
+            script.put(number, "; ".join(f"{c} {beside}" if c.startswith("isofield render") else c for c in commands))
     return script
 
 
@@ -323,14 +323,14 @@ def check_names(page, lines, outside, names, faults):
         for pattern, missing in ways:
             for program, name, bare_name in re.findall(pattern, line):
                 if not (name or bare_name).isupper():
-                    report(page, number, missing(program, name or bare_name), faults)
+                    faults.add(page, number, missing(program, name or bare_name))
     for number, text in code_of_column(outside, "filter"):
         words = text.split()
         if words[0] != "ctest":  # which is seen above
             program = words[0] if len(words) == 2 else "isofield_gpu_tests"
-            report(page, number, names.missing_of_gtest(program, words[-1]), faults)
+            faults.add(page, number, names.missing_of_gtest(program, words[-1]))
     for number, text in code_of_column(outside, "benchmarks"):
-        report(page, number, names.missing_of_bench(text), faults)
+        faults.add(page, number, names.missing_of_bench(text))
 
 
 def code_of_column(outside, heading):
@@ -345,11 +345,6 @@ def code_of_column(outside, heading):
         elif column is not None and column < len(cells):
             for text in re.findall(r"`([^`]+)`", cells[column]):
                 yield number, text
-
-
-def report(page, number, fault, faults):
-    if fault:
-        faults.add(page, number, fault)
 
 
 def check_links(page, outside, checkout, faults):
