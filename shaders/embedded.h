@@ -10,8 +10,8 @@ using Spirv = std::span<const std::uint32_t>;
 
 extern const Spirv kPointsValue, kPointsGradient, kSortedPointsValue, kSortedPointsGradient;
 extern const Spirv kGridValue, kGridGradient;
-extern const Spirv kMeshSample, kMeshShare, kMeshClassify, kMeshNear, kMeshSettle, kMeshConnect, kMeshList,
-    kMeshQuads, kMeshQuadsSmooth, kMeshTriangles;
+extern const Spirv kMeshSample, kMeshShare, kMeshClassify, kMeshNear, kMeshSettle, kMeshConnect, kMeshList, kMeshQuads,
+    kMeshQuadsSmooth, kMeshTriangles;
 // A kernel in which one workgroup takes one brick. The workgroup handles the brick's vertices or quads in rounds, each
 // of as many as it has invocations: 32 in the wide version, 8 in the narrow one. On lavapipe the narrow version is
 // faster, because the subgroups of a workgroup run one after the other there, and idle ones take time too.

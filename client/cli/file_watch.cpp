@@ -38,9 +38,9 @@ absl::Status FileWatch::watch(const std::string& path) {
   const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
   // A folder that is watched already keeps its number. IN_CREATE counts for links only: a file that has just been
   // created is not complete before it is closed.
-  const int number = ::inotify_add_watch(
-      descriptor_, folder.c_str(),
-      IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
+  const int number =
+      ::inotify_add_watch(descriptor_, folder.c_str(),
+                          IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
   if (number < 0) return watch_error(path);
   names_.emplace_back(number, file.filename().string());
   return absl::OkStatus();

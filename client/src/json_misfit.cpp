@@ -171,9 +171,9 @@ class Walker {
       if (!stated.emplace(field, key_at).second) return meaning(key_at, in, " is stated twice; expected it once");
       const OneofDescriptor* oneof = next_is('n') ? nullptr : field->containing_oneof();
       if (oneof != nullptr && !chosen.emplace(oneof, field).second) {
-        return meaning(key_at, path.empty() ? "the text" : path,
-                       absl::StrCat(" has both ", chosen[oneof]->name(), " and ", field->name(),
-                                    "; expected one of them"));
+        return meaning(
+            key_at, path.empty() ? "the text" : path,
+            absl::StrCat(" has both ", chosen[oneof]->name(), " and ", field->name(), "; expected one of them"));
       }
       if (next_is('n')) return skip_value(depth);
       if (!field->is_repeated() || !next_is('[')) return value(*field, in, depth);

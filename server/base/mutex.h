@@ -1,5 +1,5 @@
-// A mutex whose use clang checks (-Wthread-safety): a member says which mutex guards it, and a function says which one its
-// caller must hold. It wraps std::mutex, because ThreadSanitizer does not see the locks of an Abseil that was built
+// A mutex whose use clang checks (-Wthread-safety): a member says which mutex guards it, and a function says which one
+// its caller must hold. It wraps std::mutex, because ThreadSanitizer does not see the locks of an Abseil that was built
 // without it, as Debian's is.
 #pragma once
 

@@ -65,8 +65,7 @@ Catalog::Catalog(Store& store, std::uint64_t max_scenes)
     : shelf_(store, Kind::kScene, {.entries = max_scenes}, words_of_scenes()) {}
 
 absl::StatusOr<Catalog::Put> Catalog::put(const std::string& name, v1::Scene scene,
-                                          std::shared_ptr<const SceneOperators> operators,
-                                          const Condition& condition) {
+                                          std::shared_ptr<const SceneOperators> operators, const Condition& condition) {
   auto value = std::make_shared<const SceneValue>(std::move(scene), std::move(operators));
   ISOFIELD_ASSIGN_OR_RETURN(const Shelf::Put put, shelf_.put(name, std::move(value), condition));
   return Put{scene_entry(put.record), put.replaced_version};

@@ -15,8 +15,7 @@ class MemoryStore final : public Store {
  public:
   absl::StatusOr<Put> put(Kind kind, const std::string& name, std::shared_ptr<const Value> value,
                           const Condition& condition, const Quota& quota) override;
-  absl::StatusOr<std::vector<std::optional<Record>>> get(Kind kind,
-                                                         std::span<const std::string> names) const override;
+  absl::StatusOr<std::vector<std::optional<Record>>> get(Kind kind, std::span<const std::string> names) const override;
   absl::StatusOr<std::vector<Record>> list(Kind kind, const std::string& after, std::size_t most) const override;
   absl::StatusOr<std::optional<Record>> remove(Kind kind, const std::string& name) override;
   absl::StatusOr<Usage> usage(Kind kind) const override;

@@ -104,10 +104,9 @@ absl::StatusOr<std::shared_ptr<const SceneOperators>> OperatorCatalog::operators
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!found[i]) {
       ISOFIELD_ASSIGN_OR_RETURN(const std::string there, shelf_.names());
-      return absl::InvalidArgumentError(
-          absl::StrCat(blobtree::node_path(nodes[i], scene.nodes(nodes[i])), ".operator = ", base::quoted(names[i]),
-                       ": expected a custom operator; ",
-                       there.empty() ? "there are none" : absl::StrCat("there are ", there)));
+      return absl::InvalidArgumentError(absl::StrCat(
+          blobtree::node_path(nodes[i], scene.nodes(nodes[i])), ".operator = ", base::quoted(names[i]),
+          ": expected a custom operator; ", there.empty() ? "there are none" : absl::StrCat("there are ", there)));
     }
     const OperatorEntry entry = operator_entry(*found[i]);
     operators->table.emplace(names[i], entry.op);

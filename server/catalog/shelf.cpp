@@ -64,8 +64,7 @@ absl::Status Shelf::refusal(const std::string& name, const Condition& condition,
     case Outcome::kDone:
       break;
     case Outcome::kIsThere:
-      return absl::AlreadyExistsError(
-          absl::StrCat(words_.one, " '", name, "' exists already, at version ", put.found));
+      return absl::AlreadyExistsError(absl::StrCat(words_.one, " '", name, "' exists already, at version ", put.found));
     case Outcome::kIsNotThere:
       return not_found(name);
     case Outcome::kIsAtAnother:
@@ -75,9 +74,8 @@ absl::Status Shelf::refusal(const std::string& name, const Condition& condition,
       return absl::ResourceExhaustedError(absl::StrCat("the catalog holds ", put.amount, " ", words_.many,
                                                        ", all that are admitted; delete one first"));
     case Outcome::kTooManyBytes:
-      return absl::ResourceExhaustedError(absl::StrCat(words_.many, " would take ", put.amount,
-                                                       " bytes, expected at most ", quota_.bytes,
-                                                       "; delete one first"));
+      return absl::ResourceExhaustedError(absl::StrCat(
+          words_.many, " would take ", put.amount, " bytes, expected at most ", quota_.bytes, "; delete one first"));
   }
   return absl::InternalError("the store gave an outcome that is none");
 }

@@ -37,8 +37,7 @@ class Shelf {
   };
   // INVALID_ARGUMENT: the name is not allowed. ALREADY_EXISTS, NOT_FOUND, ABORTED: the condition does not hold.
   // RESOURCE_EXHAUSTED: the quota is used up.
-  absl::StatusOr<Put> put(const std::string& name, std::shared_ptr<const Value> value,
-                          const Condition& condition = {});
+  absl::StatusOr<Put> put(const std::string& name, std::shared_ptr<const Value> value, const Condition& condition = {});
   // NOT_FOUND: nothing has this name.
   absl::StatusOr<Record> get(const std::string& name) const;
   // Returns the records that several names have at one moment, in the order of the names; a name that is not there has

@@ -66,9 +66,9 @@ class Store {
   struct Put {
     enum class Outcome {
       kDone,
-      kIsThere,        // the condition wants it absent
-      kIsNotThere,     // the condition wants a version
-      kIsAtAnother,    // the condition wants another version than `found`
+      kIsThere,         // the condition wants it absent
+      kIsNotThere,      // the condition wants a version
+      kIsAtAnother,     // the condition wants another version than `found`
       kTooManyEntries,  // the quota: `amount` entries are there
       kTooManyBytes     // the quota: there would be `amount` bytes
     };

@@ -227,8 +227,8 @@ absl::StatusOr<std::vector<std::string>> flags_of_environment(const Options& opt
     for (const std::string& known : variables) tails.push_back(known.substr(kPrefix.size()));
     const std::string tail = base::nearest_name(absl::string_view(variable).substr(kPrefix.size()), tails);
     if (tail.empty()) continue;
-    return absl::InvalidArgumentError(absl::StrCat("the environment's ", variable,
-                                                   " belongs to no option; did you mean '", kPrefix, tail, "'?"));
+    return absl::InvalidArgumentError(
+        absl::StrCat("the environment's ", variable, " belongs to no option; did you mean '", kPrefix, tail, "'?"));
   }
   for (const Options::Settable& settable : options.settable) {
     const char* const value = std::getenv(settable.variable.c_str());

@@ -23,7 +23,7 @@ struct Config {
   bool shared_memory = false;
   // A kernel is written for small scenes of one structure after so many of their points are evaluated; 0: never.
   std::uint64_t hot_points = 1u << 20;
-  bool compile_ahead = true;            // compile what edited scenes are likely to need next
+  bool compile_ahead = true;                               // compile what edited scenes are likely to need next
   std::size_t max_kernels = engine::KernelOptions{}.most;  // compiled kernels that are kept
   engine::QueueOptions queue;
   rpc::Limits limits;

@@ -116,8 +116,8 @@ absl::Status parse_line(absl::string_view text, ConfigLine& out) {
   if (!take_value(rest, out)) return refuse(absl::StrCat(out.key, " = ", out.written), kExpectedValue);
   rest = absl::StripLeadingAsciiWhitespace(rest);
   if (!rest.empty() && rest.front() != '#') {
-    return refuse(rest, absl::StrCat("expected the end of the line, or a comment (#), after ", out.key, " = ",
-                                     out.written));
+    return refuse(rest,
+                  absl::StrCat("expected the end of the line, or a comment (#), after ", out.key, " = ", out.written));
   }
   return absl::OkStatus();
 }
@@ -143,9 +143,8 @@ absl::StatusOr<std::vector<ConfigLine>> read_config_file(const std::string& path
     absl::Status status = parse_line(rest, line);
     const auto [place, is_new] = places.emplace(line.key, number);
     if (status.ok() && !is_new) {
-      status = absl::InvalidArgumentError(
-          absl::StrCat(line.key, " stands there twice: it was already set in line ", place->second,
-                       "; expected each key once"));
+      status = absl::InvalidArgumentError(absl::StrCat(line.key, " stands there twice: it was already set in line ",
+                                                       place->second, "; expected each key once"));
     }
     if (!status.ok()) return absl::InvalidArgumentError(absl::StrCat(path, ":", number, ": ", status.message()));
   }

@@ -74,10 +74,9 @@ absl::Status run(const Config& config, const std::string& version) {
   options.validation = config.validation;
   options.on_validation_message = [](const std::string& message) { spdlog::error("Vulkan validation: {}", message); };
   const auto specialised = std::make_shared<engine::SpecialisedKernels>(kernel_folder(config));
-  ISOFIELD_ASSIGN_OR_RETURN(
-      const std::unique_ptr<engine::Engine> engine,
-      engine::Engine::create(options, config.limits.scene, config.queue, tier_two(config),
-                             {.most = config.max_kernels, .specialised = specialised}));
+  ISOFIELD_ASSIGN_OR_RETURN(const std::unique_ptr<engine::Engine> engine,
+                            engine::Engine::create(options, config.limits.scene, config.queue, tier_two(config),
+                                                   {.most = config.max_kernels, .specialised = specialised}));
   const gpu::DeviceDescription& d = engine->device().description();
   spdlog::info("isofieldd {} on {} ({}, Vulkan {})", version, d.name, d.driver, d.vulkan_version);
 

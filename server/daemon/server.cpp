@@ -61,8 +61,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::start(const Config& config, Serv
   int port = 0;
   set_up(config, services, builder, port);
   started->evaluate_calls_ = std::make_unique<rpc::EvaluateCalls>(services.fields(), builder.AddCompletionQueue());
-  started->evaluate_streams_ =
-      std::make_unique<rpc::EvaluateStreams>(services.fields(), builder.AddCompletionQueue());
+  started->evaluate_streams_ = std::make_unique<rpc::EvaluateStreams>(services.fields(), builder.AddCompletionQueue());
   started->server_ = builder.BuildAndStart();
   const bool is_unix = absl::StartsWith(config.listen, "unix:");
   if (!started->server_ || (!is_unix && port <= 0)) {

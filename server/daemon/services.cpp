@@ -46,17 +46,17 @@ Services::Services(const Config& config, const std::string& version, engine::Eng
       editor_(catalog_, residents_, engine, ahead_.get()),
       scene_service_(catalog_, operators_, residents_, editor_, engine, requests_),
       operator_service_(operators_, scenes_, engine, limits_, requests_),
-      field_service_(scenes_, engine, limits_, batches_, requests_,
-                     config.shared_memory ? &shared_regions_ : nullptr, call_log_),
+      field_service_(scenes_, engine, limits_, batches_, requests_, config.shared_memory ? &shared_regions_ : nullptr,
+                     call_log_),
       mesh_service_(scenes_, editor_, engine, limits_, requests_),
       surface_service_(scenes_, engine, limits_, requests_),
       info_service_(operators_, residents_, engine, limits_, version, region_socket_path(config)),
       reflection_service_(names()) {}
 
 std::vector<std::string> Services::names() {
-  return {v1::FieldService::service_full_name(),   v1::InfoService::service_full_name(),
-          v1::MeshService::service_full_name(),    v1::OperatorService::service_full_name(),
-          v1::SceneService::service_full_name(),   v1::SurfaceService::service_full_name()};
+  return {v1::FieldService::service_full_name(), v1::InfoService::service_full_name(),
+          v1::MeshService::service_full_name(),  v1::OperatorService::service_full_name(),
+          v1::SceneService::service_full_name(), v1::SurfaceService::service_full_name()};
 }
 
 std::vector<grpc::Service*> Services::all() {

@@ -14,7 +14,7 @@ struct Buffer::Impl {
   Spares<Buffer::Impl>* spares = nullptr;  // takes the buffer after use; null: it is destroyed
   std::optional<vk::raii::Buffer> buffer;
   std::optional<vk::raii::DeviceMemory> memory;
-  std::size_t offset = 0;  // the place of its first byte in `buffer`, which is not 0 for some borrowed bytes
+  std::size_t offset = 0;       // the place of its first byte in `buffer`, which is not 0 for some borrowed bytes
   std::byte* mapped = nullptr;  // its first byte as the host sees it; null: not mapped
 };
 

@@ -24,7 +24,7 @@ struct Commands::Impl {
   vk::raii::Fence fence;
   std::vector<vk::raii::DescriptorPool> set_pools;
   std::vector<SharedPipeline> pipelines;  // those of the dispatches, kept alive until these are done
-  std::uint32_t sets_left = 0;  // descriptor sets that the last pool still has
+  std::uint32_t sets_left = 0;            // descriptor sets that the last pool still has
   bool has_work = false;
   bool is_submitted = false;  // submitted and not waited for
   bool is_spent = false;      // has been submitted, so that the fence must be reset before it is used again

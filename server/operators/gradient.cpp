@@ -18,7 +18,6 @@
 namespace isofield::operators {
 namespace {
 
-
 Silhouette read_sampled_silhouette(const base::FieldReader::Numbers& numbers, base::FieldReader& in) {
   const std::vector<double> s =
       read_samples("silhouette.samples", numbers, 1e-3, 2, 1, "a distance from the origin, within [0.001, 2]", in);

@@ -5,10 +5,7 @@
 #include <numbers>
 
 namespace isofield::operators {
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 Curve kappa(double x) {
   if (x <= 0) return {0, 0, 0};
@@ -47,7 +44,8 @@ Opening Opening::turned() const {
     turned.samples = SampledCurve::even(0, std::numbers::pi, {samples.y().rbegin(), samples.y().rend()});
     return turned;
   }
-  return {std::numbers::pi - alpha2, std::numbers::pi - alpha1, std::numbers::pi - alpha0, theta2, theta1, theta0, w1, w0};
+  return {
+      std::numbers::pi - alpha2, std::numbers::pi - alpha1, std::numbers::pi - alpha0, theta2, theta1, theta0, w1, w0};
 }
 
 double picked_opening(double f1, double f2) {

@@ -69,8 +69,9 @@ Opening read_opening(const v1::Opening& m, base::FieldReader& in) {
     if (any) in.refuse("opening.samples", "[stated]", "either samples or a preset and parameters, not both");
     // The parameters stay 0, so that equal samples make equal openings.
     o = {};
-    o.samples = SampledCurve::even(
-        0, std::numbers::pi, read_samples("opening.samples", m.samples(), 0, 45, kRadians, "degrees within [0, 45]", in));
+    o.samples =
+        SampledCurve::even(0, std::numbers::pi,
+                           read_samples("opening.samples", m.samples(), 0, 45, kRadians, "degrees within [0, 45]", in));
     return o;
   }
   if (m.preset() == v1::Opening::PRESET_UNSPECIFIED && any && !all) {

@@ -34,9 +34,9 @@ std::uint64_t AnswerLimit::rows(std::uint64_t row_bytes) const {
 
 absl::Status AnswerLimit::admit(std::uint64_t answer_bytes, absl::string_view instead) const {
   if (answer_bytes <= bytes_) return absl::OkStatus();
-  return absl::ResourceExhaustedError(
-      absl::StrCat("the answer has at least ", answer_bytes, " bytes, more than the ", bytes_,
-                   " that the client takes: ", instead, ", or state a larger max_answer_bytes"));
+  return absl::ResourceExhaustedError(absl::StrCat("the answer has at least ", answer_bytes, " bytes, more than the ",
+                                                   bytes_, " that the client takes: ", instead,
+                                                   ", or state a larger max_answer_bytes"));
 }
 
 absl::Status check_number_rows(bool answer_in_numbers, std::uint64_t rows) {

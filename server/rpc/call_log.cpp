@@ -122,12 +122,12 @@ class CallLog::Call final : public grpc::experimental::Interceptor {
       log_.running_.erase(context_);
     }
     if (start_ == Clock::time_point()) return;  // no call has come, since the server shuts down
-    log_.sink_(absl::StrFormat("call %d %s%s: queue %.1f ms, kernels %.1f ms, device %.1f ms, transfer %.1f ms, "
-                               "total %.1f ms, %s",
-                               id_, method_.substr(sizeof(kPrefix) - 1), notes_.text(),
-                               milliseconds(notes_.times().queued()), milliseconds(notes_.times().compiling()),
-                               milliseconds(notes_.times().on_device()), milliseconds(transfer_),
-                               milliseconds(Clock::now() - start_), outcome_));
+    log_.sink_(
+        absl::StrFormat("call %d %s%s: queue %.1f ms, kernels %.1f ms, device %.1f ms, transfer %.1f ms, "
+                        "total %.1f ms, %s",
+                        id_, method_.substr(sizeof(kPrefix) - 1), notes_.text(), milliseconds(notes_.times().queued()),
+                        milliseconds(notes_.times().compiling()), milliseconds(notes_.times().on_device()),
+                        milliseconds(transfer_), milliseconds(Clock::now() - start_), outcome_));
   }
 
   void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {

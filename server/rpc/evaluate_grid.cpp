@@ -92,16 +92,15 @@ absl::Status GridEvaluation::run() {
 absl::Status GridEvaluation::send_at_once(std::uint32_t first, std::uint32_t layers) {
   response_.Clear();
   response_.set_first_layer(first);
-  const std::span<float> out = make_float_tensor({layers, lattice_.cells[1], lattice_.cells[0], width_},
-                                                 *response_.mutable_result());
+  const std::span<float> out =
+      make_float_tensor({layers, lattice_.cells[1], lattice_.cells[0], width_}, *response_.mutable_result());
   ISOFIELD_RETURN_IF_ERROR(fields_.evaluate_layers(scene_, lattice_, first, layout_, out, cancelled_));
   return send(writer_, response_);
 }
 
 absl::Status GridEvaluation::send_in_parts(std::uint32_t first, std::uint32_t layers) {
   several_.resize(layers * layer_ * width_);
-  ISOFIELD_RETURN_IF_ERROR(
-      fields_.evaluate_layers(scene_, lattice_, first, layout_, std::span(several_), cancelled_));
+  ISOFIELD_RETURN_IF_ERROR(fields_.evaluate_layers(scene_, lattice_, first, layout_, std::span(several_), cancelled_));
   auto from = several_.begin();
   for (const GridPart& part : grid_parts({lattice_.cells[0], lattice_.cells[1], layers}, most_)) {
     response_.Clear();

@@ -39,8 +39,8 @@ class EvaluateStreams::Stream {
   struct Work {
     v1::EvaluateStreamRequest request;
     MessagePoints points;
-    Admission::Ticket ticket;             // counts the points until they are evaluated
-    std::optional<ResultMessage> result;  // absent if results go into shared memory
+    Admission::Ticket ticket;              // counts the points until they are evaluated
+    std::optional<ResultMessage> result;   // absent if results go into shared memory
     std::deque<grpc::ByteBuffer> answers;  // the result's unwritten messages; empty until the first one is due
     bool is_done = false;
     absl::Status status;

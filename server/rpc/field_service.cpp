@@ -90,8 +90,7 @@ absl::Status FieldService::evaluate_grid(Call& call, const v1::EvaluateGridReque
   ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const AnswerLimit limit, AnswerLimit::of_stream(request.max_answer_bytes()));
   ISOFIELD_RETURN_IF_ERROR(call.admit(points_of_lattice(lattice)));
-  const std::uint64_t most =
-      std::min(limit.rows(layout.bytes()), limits_.max_points_per_message);
+  const std::uint64_t most = std::min(limit.rows(layout.bytes()), limits_.max_points_per_message);
   return GridEvaluation(engine_.fields(), *leased.scene, lattice, layout, most, call, writer).run();
 }
 

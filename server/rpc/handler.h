@@ -25,8 +25,7 @@ namespace isofield::rpc {
 // One call as its handler sees it. `context` must outlive it, and must outlive the functions that cancelled() returns.
 class Call {
  public:
-  Call(const grpc::ServerContext& context, Admission::Ticket ticket)
-      : context_(context), ticket_(std::move(ticket)) {}
+  Call(const grpc::ServerContext& context, Admission::Ticket ticket) : context_(context), ticket_(std::move(ticket)) {}
 
   // Asks for room for the estimated work of the request. RESOURCE_EXHAUSTED: there is none now.
   absl::Status admit(std::uint64_t points) { return ticket_.add(points); }

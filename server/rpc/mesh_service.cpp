@@ -86,13 +86,13 @@ MeshService::MeshService(const scenes::SceneSource& scenes, scenes::SceneEditor&
     : scenes_(scenes), editor_(editor), engine_(engine), limits_(limits), admission_(admission) {
   const auto* service = v1::TrackMeshRequest::descriptor()->file()->FindServiceByName("MeshService");
   const int method = service->FindMethodByName("TrackMesh")->index();
-  MarkMethodStreamed(method, new grpc::internal::BidiStreamingHandler<MeshService, grpc::ByteBuffer,
-                                                                      v1::TrackMeshResponse>(
-                                 [](MeshService* service, grpc::ServerContext* context, TrackMeshStream* stream) {
-                                   const auto track = [&] { return service->track(*context, *stream); };
-                                   return finish(*context, base::guarded(track));
-                                 },
-                                 this));
+  MarkMethodStreamed(method,
+                     new grpc::internal::BidiStreamingHandler<MeshService, grpc::ByteBuffer, v1::TrackMeshResponse>(
+                         [](MeshService* service, grpc::ServerContext* context, TrackMeshStream* stream) {
+                           const auto track = [&] { return service->track(*context, *stream); };
+                           return finish(*context, base::guarded(track));
+                         },
+                         this));
 }
 
 absl::Status MeshService::mesh(Call& call, const v1::MeshRequest& request,
@@ -101,8 +101,8 @@ absl::Status MeshService::mesh(Call& call, const v1::MeshRequest& request,
   ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const Refinement refinement, Refinement::read(request));
   const engine::MeshCallbacks callbacks = mesh_callbacks(call, writer);
-  ISOFIELD_ASSIGN_OR_RETURN(const engine::MeshRequest r, read_mesh_request(request, *leased.scene, engine_.mesher(),
-                                                                           limits_, callbacks.cancelled));
+  ISOFIELD_ASSIGN_OR_RETURN(const engine::MeshRequest r,
+                            read_mesh_request(request, *leased.scene, engine_.mesher(), limits_, callbacks.cancelled));
   ISOFIELD_RETURN_IF_ERROR(call.admit(estimated_cells(leased.scene->tape(), r)));
   ISOFIELD_ASSIGN_OR_RETURN(const bool with_creases, read_crease_normals(request));
   MeshWriter out(writer, with_creases);
@@ -129,9 +129,8 @@ absl::Status MeshService::get_bricks(Call& call, const v1::MeshBricksRequest& re
   ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.mesh().scene()));
   ISOFIELD_RETURN_IF_ERROR(check_as_made(request.mesh()));
   const engine::MeshCallbacks callbacks = mesh_callbacks(call, writer);
-  ISOFIELD_ASSIGN_OR_RETURN(
-      engine::MeshRequest r,
-      read_mesh_request(request.mesh(), *leased.scene, engine_.mesher(), limits_, callbacks.cancelled));
+  ISOFIELD_ASSIGN_OR_RETURN(engine::MeshRequest r, read_mesh_request(request.mesh(), *leased.scene, engine_.mesher(),
+                                                                     limits_, callbacks.cancelled));
   ISOFIELD_ASSIGN_OR_RETURN(r.part, read_part(request));
   ISOFIELD_RETURN_IF_ERROR(call.admit(estimated_cells(leased.scene->tape(), r)));
   const auto deliver = [&](const engine::MeshCells& cells) {
@@ -163,9 +162,8 @@ absl::Status MeshService::measure(Call& call, const v1::MeshRequest& request, v1
   ISOFIELD_ASSIGN_OR_RETURN(const scenes::LeasedScene leased, scenes_.lease(request.scene()));
   ISOFIELD_ASSIGN_OR_RETURN(const Refinement refinement, Refinement::read(request));
   const engine::MeshCallbacks callbacks{.cancelled = call.cancelled()};
-  ISOFIELD_ASSIGN_OR_RETURN(
-      engine::MeshRequest r,
-      read_mesh_request(request, *leased.scene, engine_.mesher(), limits_, callbacks.cancelled));
+  ISOFIELD_ASSIGN_OR_RETURN(engine::MeshRequest r,
+                            read_mesh_request(request, *leased.scene, engine_.mesher(), limits_, callbacks.cancelled));
   ISOFIELD_RETURN_IF_ERROR(call.admit(estimated_cells(leased.scene->tape(), r)));
   r.with_normals = false;
   ISOFIELD_ASSIGN_OR_RETURN(const engine::Mesh mesh,

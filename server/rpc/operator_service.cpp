@@ -105,7 +105,8 @@ absl::Status OperatorService::evaluate_opening(Call& call, const v1::EvaluateOpe
   return engine_.operators().evaluate_opening(opening, alphas.numbers(), out);
 }
 
-absl::StatusOr<std::shared_ptr<const operators::Operator>> OperatorService::choose(const v1::EvaluateOperatorRequest& request) const {
+absl::StatusOr<std::shared_ptr<const operators::Operator>> OperatorService::choose(
+    const v1::EvaluateOperatorRequest& request) const {
   std::optional<v1::Operator> built_in;
   switch (request.operator_case()) {
     case v1::EvaluateOperatorRequest::kName:
@@ -130,9 +131,9 @@ absl::Status OperatorService::evaluate(Call& call, const v1::EvaluateOperatorReq
     return evaluate_opening(call, request, response);
   }
   ISOFIELD_ASSIGN_OR_RETURN(const auto op, choose(request));
-  ISOFIELD_ASSIGN_OR_RETURN(
-      const OperatorArguments arguments,
-      OperatorArguments::read(argument_shape(*op), request.columns(), request.arguments(), limits_.max_points_per_message));
+  ISOFIELD_ASSIGN_OR_RETURN(const OperatorArguments arguments,
+                            OperatorArguments::read(argument_shape(*op), request.columns(), request.arguments(),
+                                                    limits_.max_points_per_message));
   const std::vector<std::string> columns = arguments.result_columns();
   response.mutable_columns()->Assign(columns.begin(), columns.end());
   ISOFIELD_RETURN_IF_ERROR(check_answer_rows(request, arguments.rows(), columns.size() * sizeof(float)));

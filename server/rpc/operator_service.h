@@ -56,8 +56,7 @@ class OperatorService final : public v1::OperatorService::Service {
   absl::Status get(const v1::GetOperatorRequest& request, v1::GetOperatorResponse& response);
   absl::Status list(const v1::ListOperatorsRequest& request, v1::ListOperatorsResponse& response);
   absl::Status remove(const v1::DeleteOperatorRequest& request);
-  absl::Status evaluate(Call& call, const v1::EvaluateOperatorRequest& request,
-                        v1::EvaluateOperatorResponse& response);
+  absl::Status evaluate(Call& call, const v1::EvaluateOperatorRequest& request, v1::EvaluateOperatorResponse& response);
   absl::Status evaluate_opening(Call& call, const v1::EvaluateOperatorRequest& request,
                                 v1::EvaluateOperatorResponse& response);
   absl::Status pick(const v1::PickOpeningRequest& request, v1::PickOpeningResponse& response);

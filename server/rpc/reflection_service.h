@@ -20,9 +20,8 @@ class ReflectionService final : public grpc::reflection::v1::ServerReflection::S
   explicit ReflectionService(std::vector<std::string> services);
 
   grpc::Status ServerReflectionInfo(
-      grpc::ServerContext*,
-      grpc::ServerReaderWriter<grpc::reflection::v1::ServerReflectionResponse,
-                               grpc::reflection::v1::ServerReflectionRequest>* stream) override;
+      grpc::ServerContext*, grpc::ServerReaderWriter<grpc::reflection::v1::ServerReflectionResponse,
+                                                     grpc::reflection::v1::ServerReflectionRequest>* stream) override;
 
  private:
   std::vector<std::string> services_;

@@ -33,9 +33,9 @@ std::string message_head(std::uint64_t rows, std::uint64_t columns, bool in_numb
   tensor.set_dtype(v1::Tensor::FLOAT32);
   tensor.add_shape(rows);
   tensor.add_shape(columns);
-  const std::string inner = tensor.SerializeAsString() + field_head(in_numbers ? v1::Tensor::kNumbersFieldNumber
-                                                                               : v1::Tensor::kDataFieldNumber,
-                                                                    bytes);
+  const std::string inner =
+      tensor.SerializeAsString() +
+      field_head(in_numbers ? v1::Tensor::kNumbersFieldNumber : v1::Tensor::kDataFieldNumber, bytes);
   return field_head(v1::EvaluateResponse::kResultFieldNumber, inner.size() + bytes) + inner;
 }
 

@@ -49,8 +49,7 @@ absl::Status SceneService::put(const v1::PutSceneRequest& request, v1::PutSceneR
 absl::Status SceneService::get(const v1::GetSceneRequest& request, v1::GetSceneResponse& response) {
   ISOFIELD_ASSIGN_OR_RETURN(const catalog::Entry entry, catalog_.get(request.name()));
   // The size is checked before the scene is copied, and again with the summary.
-  ISOFIELD_RETURN_IF_ERROR(
-      AnswerLimit(request.max_answer_bytes()).admit(entry.scene->ByteSizeLong(), kSceneParts));
+  ISOFIELD_RETURN_IF_ERROR(AnswerLimit(request.max_answer_bytes()).admit(entry.scene->ByteSizeLong(), kSceneParts));
   *response.mutable_scene() = *entry.scene;
   return summarise(entry, *response.mutable_summary());
 }

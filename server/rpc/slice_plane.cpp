@@ -112,8 +112,8 @@ absl::StatusOr<engine::Plane> read_plane(const v1::SliceRequest& request, const 
     plane.counts[i] = static_cast<std::uint32_t>(counts[i]);
     plane.spacing[i] = spacing[i];
     if (!(counts[i] * spacing[i] <= base::kMaxCoordinate)) {
-      return absl::InvalidArgumentError(absl::StrCat(
-          "spacing = ", spacing[i], ": expected a plane of a length of at most ", base::kMaxCoordinate));
+      return absl::InvalidArgumentError(
+          absl::StrCat("spacing = ", spacing[i], ": expected a plane of a length of at most ", base::kMaxCoordinate));
     }
   }
   if (!request.origin().empty()) {

@@ -178,8 +178,8 @@ absl::Status SurfaceService::contains(Call& call, const v1::ContainsRequest& req
   ISOFIELD_ASSIGN_OR_RETURN(level.iso, read_iso(request, level.law));
   ISOFIELD_RETURN_IF_ERROR(call.admit(points.size()));
   std::vector<float> values(points.size());
-  ISOFIELD_RETURN_IF_ERROR(engine_.fields().evaluate(*leased.scene, points.xyz(), engine::ResultLayout::kValue, values,
-                                                     call.cancelled()));
+  ISOFIELD_RETURN_IF_ERROR(
+      engine_.fields().evaluate(*leased.scene, points.xyz(), engine::ResultLayout::kValue, values, call.cancelled()));
   std::vector<std::uint8_t> inside(values.size());
   std::transform(values.begin(), values.end(), inside.begin(), [&](float f) { return level.excess(f) > 0 ? 1 : 0; });
   set_rows(std::span<const std::uint8_t>(inside), 1, *response.mutable_inside());
@@ -192,8 +192,7 @@ absl::Status SurfaceService::slice(Call& call, const v1::SliceRequest& request, 
                             read_plane(request, leased.scene->tape(), limits_.max_points_per_message));
   ISOFIELD_RETURN_IF_ERROR(check_levels(request));
   const std::uint64_t samples = std::uint64_t{plane.counts[0]} * plane.counts[1];
-  ISOFIELD_RETURN_IF_ERROR(
-      AnswerLimit(request.max_answer_bytes()).admit(samples * sizeof(float), kSmallerPlane));
+  ISOFIELD_RETURN_IF_ERROR(AnswerLimit(request.max_answer_bytes()).admit(samples * sizeof(float), kSmallerPlane));
   std::vector<double> levels(request.levels().begin(), request.levels().end());
   if (levels.empty()) {
     ISOFIELD_ASSIGN_OR_RETURN(const double surface, read_iso(std::optional<double>(), leased.scene->tape().law));

@@ -12,8 +12,7 @@ namespace isofield::rpc {
 // Thread-safe.
 class SurfaceService final : public v1::SurfaceService::Service {
  public:
-  SurfaceService(const scenes::SceneSource& scenes, engine::Engine& engine, const Limits& limits,
-                 Admission& admission)
+  SurfaceService(const scenes::SceneSource& scenes, engine::Engine& engine, const Limits& limits, Admission& admission)
       : scenes_(scenes), engine_(engine), limits_(limits), admission_(admission) {}
 
   grpc::Status CastRays(grpc::ServerContext* context, const v1::CastRaysRequest* request,

@@ -97,8 +97,8 @@ absl::StatusOr<RowArray> RowArray::read(const v1::Tensor& tensor, std::uint64_t 
   return array;
 }
 
-absl::StatusOr<RowArray> RowArray::read_numbers(const v1::Tensor& tensor, std::uint64_t columns,
-                                                std::uint64_t max_rows, const Words& words) {
+absl::StatusOr<RowArray> RowArray::read_numbers(const v1::Tensor& tensor, std::uint64_t columns, std::uint64_t max_rows,
+                                                const Words& words) {
   if (!tensor.data().empty()) {
     return absl::InvalidArgumentError(
         absl::StrCat(words.tensor, ".data and ", words.tensor, ".numbers are both stated: expected one of them"));

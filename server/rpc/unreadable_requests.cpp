@@ -55,9 +55,9 @@ class RequestChecks final : public grpc::experimental::ServerInterceptorFactoryI
 }  // namespace
 
 absl::Status unreadable(const std::string& type) {
-  return absl::InvalidArgumentError(absl::StrCat(
-      "the request cannot be read: expected the bytes of a ", type,
-      ", whose fields have the types that the .proto file states, and whose strings are UTF-8"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("the request cannot be read: expected the bytes of a ", type,
+                   ", whose fields have the types that the .proto file states, and whose strings are UTF-8"));
 }
 
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> refuse_unreadable_requests() {

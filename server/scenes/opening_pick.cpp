@@ -46,8 +46,7 @@ absl::StatusOr<Sample> sample(const FoundScene& found, const std::string& node, 
   v1::Scene rooted = *found.scene;
   rooted.set_root(node);
   ISOFIELD_ASSIGN_OR_RETURN(const engine::SceneLease scene, engine.make_resident(rooted, found.operators->table));
-  const std::array<float, 3> xyz{static_cast<float>(point.x), static_cast<float>(point.y),
-                                 static_cast<float>(point.z)};
+  const std::array<float, 3> xyz{static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z)};
   constexpr engine::ResultLayout kLayout = engine::ResultLayout::kValueAndGradient;
   std::array<float, kLayout.numbers()> out{};
   ISOFIELD_RETURN_IF_ERROR(engine.fields().evaluate(*scene, xyz, kLayout, out));
@@ -64,18 +63,18 @@ double angle_between(const std::array<double, 3>& a, const std::array<double, 3>
 
 }  // namespace
 
-absl::StatusOr<OpeningPick> pick_opening(const FoundScene& found, const std::string& node,
-                                         const blobtree::dvec3& point, engine::Engine& engine) {
+absl::StatusOr<OpeningPick> pick_opening(const FoundScene& found, const std::string& node, const blobtree::dvec3& point,
+                                         engine::Engine& engine) {
   const std::string name = base::quoted(node);
   const std::optional<int> index = find_node(*found.scene, node);
   if (!index) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        "node = ", name, " is no node: expected a node's name, or #0 to #", found.scene->nodes_size() - 1));
+    return absl::InvalidArgumentError(absl::StrCat("node = ", name, " is no node: expected a node's name, or #0 to #",
+                                                   found.scene->nodes_size() - 1));
   }
   const auto children = blobtree::child_references(found.scene->nodes(*index));
   if (children.size() != 2) {
-    return absl::InvalidArgumentError(absl::StrCat("node = ", name, " has ", children.size(),
-                                                   " children: expected a positive operator of 2"));
+    return absl::InvalidArgumentError(
+        absl::StrCat("node = ", name, " has ", children.size(), " children: expected a positive operator of 2"));
   }
   ISOFIELD_ASSIGN_OR_RETURN(const Sample first, sample(found, *children[0], point, engine));
   ISOFIELD_ASSIGN_OR_RETURN(const Sample second, sample(found, *children[1], point, engine));

@@ -26,8 +26,7 @@ struct StoredScene {
 class SceneEditor {
  public:
   // `ahead` is told which scenes are edited or replaced; it may be null. All arguments must outlive this.
-  SceneEditor(catalog::Catalog& catalog, ResidentScenes& residents, engine::Engine& engine,
-              engine::CompileAhead* ahead)
+  SceneEditor(catalog::Catalog& catalog, ResidentScenes& residents, engine::Engine& engine, engine::CompileAhead* ahead)
       : catalog_(catalog), residents_(residents), engine_(engine), ahead_(ahead) {}
 
   // Stores a scene, and keeps `lease`, its resident form. Errors are those of Catalog::put.

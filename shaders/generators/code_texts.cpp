@@ -134,7 +134,8 @@ std::string codes_text(Operands operands, Opcodes opcodes) {
   append_codes(text, "OPERATOR_", engine::kOpcodeWordName, opcodes);
   absl::StrAppend(
       &text,
-      "// Returns whether the one code of all instructions, or else the code of this one, is the candidate. Where `only`\n"
+      "// Returns whether the one code of all instructions, or else the code of this one, is the candidate. Where "
+      "`only`\n"
       "// decides, which is constant, the driver drops the comparison with its branch.\n"
       "bool is_code(uint only, uint code, uint candidate) { return only == candidate || code == candidate; }\n\n");
   const auto number = [](auto value) { return literal(static_cast<std::uint32_t>(value)); };

@@ -27,7 +27,9 @@ std::string macro_of(const std::string& family, const std::string& name) {
 }
 
 // Writes a macro and not a const, because an unused const stays in the compiled kernel.
-void write_constant(const char* name, std::uint32_t value) { std::printf("#define %s %uu\n", name, value); }
+void write_constant(const char* name, std::uint32_t value) {
+  std::printf("#define %s %uu\n", name, value);
+}
 
 void write_bindings() {
 #define ISOFIELD_BINDING(family, name, number) \

@@ -222,10 +222,9 @@ void register_all() {
       add("points/" + spheres + name + "/value and gradient, bare kernel",
           [count, join = join](benchmark::State& s) { bare_kernel(s, soft_spheres(count, join)); });
     }
-    add("points/" + spheres + " sum/value and gradient, 64 points",
-        [count](benchmark::State& s) {
-          points(s, soft_spheres(count, Join::kSum), ResultLayout::kValueAndGradient, 64);
-        });
+    add("points/" + spheres + " sum/value and gradient, 64 points", [count](benchmark::State& s) {
+      points(s, soft_spheres(count, Join::kSum), ResultLayout::kValueAndGradient, 64);
+    });
     add("track/" + spheres + " sum/one moved by a cell/128 cells",
         [count](benchmark::State& s) { track(s, soft_spheres(count, Join::kSum), 3.0 / 128); });
     add("mesh/" + spheres + " sum/128 cells/seen before",

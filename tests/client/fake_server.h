@@ -33,9 +33,9 @@ class FakeServer {
   std::atomic<int> reads = 0;
   std::atomic<int> writes = 0;
   std::atomic<int> stream_messages = 0;
-  std::atomic<std::size_t> largest_chunk = 0;  // points
-  std::atomic<int> fail_stream_after = -1;     // chunks
-  std::atomic<std::size_t> answer_rows = ~std::size_t{0};  // the most rows in a message of a streamed evaluation
+  std::atomic<std::size_t> largest_chunk = 0;               // points
+  std::atomic<int> fail_stream_after = -1;                  // chunks
+  std::atomic<std::size_t> answer_rows = ~std::size_t{0};   // the most rows in a message of a streamed evaluation
   std::atomic<std::size_t> page_entries = ~std::size_t{0};  // the most entries in a page of a list
   std::atomic<std::uint64_t> max_answer_bytes = 0;          // as the last request states it
   std::atomic<bool> short_answer = false;

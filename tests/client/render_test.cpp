@@ -32,8 +32,8 @@ Box covered(const Visibility& seen) {
 
 TEST(Camera, HoldsTheModelWithAMarginInEveryView) {
   const Mesh mesh = torus_mesh(100, 50, 3.0f, 0.5f);
-  for (const View& view : {View::from(0, 0), View::from(35, 20), View::from(123, -45), View::from(0, 90),
-                            View::from(180, -90)}) {
+  for (const View& view :
+       {View::from(0, 0), View::from(35, 20), View::from(123, -45), View::from(0, 90), View::from(180, -90)}) {
     for (const auto& [width, height] : {std::pair(400, 300), std::pair(200, 400), std::pair(300, 300)}) {
       const Camera camera = fit_camera(mesh.positions, view, static_cast<double>(width) / height);
       const Box box = covered(rasterize(mesh, camera, width, height));

@@ -23,8 +23,8 @@ class WatchTest : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return directory_.path(name); }
   std::vector<std::string> command(const std::string& scene, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> all{ISOFIELD_COMMAND, "--server", address_, "--json", "watch",
-                                 path(scene), "-o", path("a.png"), "--size", "32x24"};
+    std::vector<std::string> all{ISOFIELD_COMMAND, "--server", address_,      "--json", "watch",
+                                 path(scene),      "-o",       path("a.png"), "--size", "32x24"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }

@@ -150,8 +150,7 @@ TEST(FieldOnDevice, GivesTheSameBitsOnALatticeAsAtItsPoints) {
     std::vector<float> grid(points.size(), -1);
     const std::size_t layer = 27 * 30 * layout.numbers();
     const absl::Status low = fields().evaluate_layers(*scene, lattice, 0, layout, std::span(grid).first(8 * layer));
-    const absl::Status high =
-        fields().evaluate_layers(*scene, lattice, 8, layout, std::span(grid).subspan(8 * layer));
+    const absl::Status high = fields().evaluate_layers(*scene, lattice, 8, layout, std::span(grid).subspan(8 * layer));
     ASSERT_TRUE(low.ok() && high.ok());
     EXPECT_EQ(std::memcmp(grid.data(), points.data(), grid.size() * sizeof(float)), 0);
   }

@@ -115,7 +115,9 @@ TEST(KernelCache, ScenesOfTheSameKindsShareAKernelAndOthersDoNot) {
   EXPECT_EQ(kind_of(moved).constants(), kind.constants());
   EXPECT_NE(kind_of(kSpheres + R"({"ricci": {"children": ["a", "b"], "exponent": 2}})").constants(), kind.constants());
   EXPECT_NE(kind_of(kSpheres + R"({"box": {"half_size": [1, 1, 1], "range": 0.5}},
-    {"gradient": {"children": ["a", "b", "#2"], "opening": {"preset": "CAMEL"}}})").constants(), kind.constants());
+    {"gradient": {"children": ["a", "b", "#2"], "opening": {"preset": "CAMEL"}}})")
+                .constants(),
+            kind.constants());
   EXPECT_NE(KernelKind::single_leaf(resident(test_support::scene_of_nodes(kBlend))->tape()).constants(),
             kind.constants());
 }

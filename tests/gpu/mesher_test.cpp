@@ -1,4 +1,6 @@
 // Tests meshes made on the device.
+#include "engine/mesh/mesher.h"
+
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +12,6 @@
 
 #include "base/limits.h"
 #include "engine/mesh/cell_size.h"
-#include "engine/mesh/mesher.h"
 #include "engine/mesh/surface_cases.h"
 #include "engine/simplify/mesh_simplifier.h"
 #include "gpu/gpu_environment.h"

@@ -1,4 +1,6 @@
 // Compares written kernels (tier two) with the interpreter, and tests for which scenes they are made.
+#include "engine/points/written_kernels.h"
+
 #include <absl/strings/str_cat.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,7 +14,6 @@
 #include "blobtree/tape/blend_edit.h"
 #include "engine/points/field_evaluator.h"
 #include "engine/points/tape_writer.h"
-#include "engine/points/written_kernels.h"
 #include "gpu/gpu_environment.h"
 #include "gpu/operator_cases.h"
 #include "support/random_scene.h"
@@ -88,8 +89,8 @@ TEST(WrittenKernels, AgreeWithTheInterpreterOnRandomScenes) {
       for (const ResultLayout layout : {ResultLayout::kValue, ResultLayout::kValueAndGradient}) {
         if (!make_hot(written, *scene, layout == ResultLayout::kValueAndGradient)) continue;
         ++made;
-        expect_near(evaluate(*scene, xyz, layout, &written), evaluate(*scene, xyz, layout, nullptr),
-                    layout.numbers(), absl::StrCat(nodes, " nodes, seed ", seed));
+        expect_near(evaluate(*scene, xyz, layout, &written), evaluate(*scene, xyz, layout, nullptr), layout.numbers(),
+                    absl::StrCat(nodes, " nodes, seed ", seed));
       }
     }
   }

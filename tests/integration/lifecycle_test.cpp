@@ -292,7 +292,8 @@ TEST(Lifecycle, FlagsOverrideTheEnvironmentAndThatTheFile) {
   const TemporaryDirectory directory;
   write_file(directory.path("isofieldd.toml"),
              "\xef\xbb\xbf# limits\r\n\"max-nodes\" = 1_001 # of a scene\r\nmax-scenes=11\nmax-grid-points = 0x1389\n"
-             "data-dir = '" + directory.path("d#1") + "'\ndevice = \"\"\nshared-memory = false\n\n");
+             "data-dir = '" +
+                 directory.path("d#1") + "'\ndevice = \"\"\nshared-memory = false\n\n");
   ::setenv("ISOFIELD_MAX_SCENES", "12", 1);
   ::setenv("ISOFIELD_MAX_GRID_POINTS", "5002", 1);
   Daemon daemon({"--config", directory.path("isofieldd.toml"), "--max-grid-points", "5003"});

@@ -53,9 +53,13 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 TEST_F(MessageSize, GridsOfEveryShapeReachClientsWithoutOptions) {
-  for (const std::array<std::uint64_t, 3>& counts :
-       {std::array<std::uint64_t, 3>{1, 1, 1}, {64, 64, 64}, {128, 128, 128}, {63, 65, 66}, {1000, 1000, 2},
-        {3, 200'000, 2}, {300'000, 2, 3}}) {
+  for (const std::array<std::uint64_t, 3>& counts : {std::array<std::uint64_t, 3>{1, 1, 1},
+                                                     {64, 64, 64},
+                                                     {128, 128, 128},
+                                                     {63, 65, 66},
+                                                     {1000, 1000, 2},
+                                                     {3, 200'000, 2},
+                                                     {300'000, 2, 3}}) {
     SCOPED_TRACE(absl::StrCat(counts[0], " x ", counts[1], " x ", counts[2]));
     v1::EvaluateGridRequest request = grid(counts, true);
     std::vector<float> plain, few, whole;

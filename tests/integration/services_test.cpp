@@ -108,8 +108,7 @@ TEST(Services, RequestsThatCannotBeReadAreInvalidArguments) {
     for (const std::string& message : messages) {
       const grpc::Status status = raw_call(peer.channel(), name, message).status;
       SCOPED_TRACE(name);
-      expect_refused(status, grpc::StatusCode::INVALID_ARGUMENT,
-                     {"cannot be read", method->input_type()->full_name()});
+      expect_refused(status, grpc::StatusCode::INVALID_ARGUMENT, {"cannot be read", method->input_type()->full_name()});
     }
   }
   expect_serving(shared_daemon().address());

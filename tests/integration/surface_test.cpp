@@ -114,8 +114,8 @@ TEST(Surface, ASliceSpansTheSupportsByDefault) {
   Client c = client();
   // The box of its support is [-2, 2] x [-3, 1] x [-1, 7].
   v1::SliceRequest request;
-  *request.mutable_scene() = inline_scene(test_support::scene_of_nodes(
-      R"({"ellipsoid": {"center": [0, -1, 3], "semi_axes": [1, 1, 2], "range": 1}})"));
+  *request.mutable_scene() = inline_scene(
+      test_support::scene_of_nodes(R"({"ellipsoid": {"center": [0, -1, 3], "semi_axes": [1, 1, 2], "range": 1}})"));
   auto slice = c.slice(request);
   ASSERT_TRUE(slice.ok()) << slice.status();
   EXPECT_EQ(slice->counts, (std::array<std::uint64_t, 2>{512, 512}));
@@ -143,7 +143,6 @@ TEST(Surface, ASliceSpansTheSupportsByDefault) {
   slice = c.slice(request);
   ASSERT_TRUE(slice.ok()) << slice.status();
   EXPECT_EQ(slice->counts[0], 9u);
-
 
   v1::SliceRequest unbounded;
   *unbounded.mutable_scene() = inline_scene(test_support::scene_of_nodes(kUnbounded));

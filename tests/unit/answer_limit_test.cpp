@@ -64,12 +64,12 @@ TEST(AnswerLimits, PartsAreWholeRowsInOrder) {
   std::vector<std::uint32_t> joined;
   std::size_t parts = 0;
   EXPECT_TRUE(in_parts(std::span<const std::uint32_t>(numbers), 3, [&](std::span<const std::uint32_t> part) {
-    EXPECT_EQ(part.size() % 3, 0u);
-    EXPECT_LE(part.size_bytes(), kPartBytes);
-    joined.insert(joined.end(), part.begin(), part.end());
-    ++parts;
-    return absl::OkStatus();
-  }).ok());
+                EXPECT_EQ(part.size() % 3, 0u);
+                EXPECT_LE(part.size_bytes(), kPartBytes);
+                joined.insert(joined.end(), part.begin(), part.end());
+                ++parts;
+                return absl::OkStatus();
+              }).ok());
   EXPECT_EQ(joined, numbers);
   EXPECT_EQ(parts, 3u);
   const auto fail = [](std::span<const std::uint32_t>) { return absl::CancelledError("gone"); };

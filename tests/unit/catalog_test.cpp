@@ -76,9 +76,8 @@ TEST_F(CatalogTest, IsListedWithoutALimit) {
   ASSERT_TRUE(for_each_after(large, "1009", add).ok());
   ASSERT_EQ(names.size(), 580u);
   for (int i = 0; i < 580; ++i) EXPECT_EQ(names[i], absl::StrCat(1010 + i));
-  EXPECT_EQ(for_each_after(large, "", [](const Entry&) -> absl::StatusOr<bool> {
-              return absl::CancelledError("gone");
-            }).message(),
+  EXPECT_EQ(for_each_after(large, "", [](const Entry&) -> absl::StatusOr<bool> { return absl::CancelledError("gone"); })
+                .message(),
             "gone");
 }
 

@@ -32,9 +32,7 @@ TEST_F(Handler, PassesTheStatusOn) {
 }
 
 TEST_F(Handler, TurnsExceptionsIntoStatuses) {
-  const auto thrown = [&](const auto& error) {
-    return served([&](Call&) -> absl::Status { throw error; });
-  };
+  const auto thrown = [&](const auto& error) { return served([&](Call&) -> absl::Status { throw error; }); };
   EXPECT_EQ(thrown(std::bad_alloc()).error_code(), StatusCode::RESOURCE_EXHAUSTED);
   const grpc::Status unexpected = thrown(std::out_of_range("row 7"));
   EXPECT_EQ(unexpected.error_code(), StatusCode::INTERNAL);

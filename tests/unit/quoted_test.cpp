@@ -23,15 +23,16 @@ TEST(Quoted, ControlCharactersAreEscaped) {
 }
 
 TEST(Quoted, BytesThatAreNoUtf8AreEscaped) {
-  for (const auto& [bytes, shown] : {std::pair{"\xff", "'\\xff'"},
-                                     {"a\x80z", "'a\\x80z'"},
-                                     {"\xc3", "'\\xc3'"},                            // cut off
-                                     {"\xc3(", "'\\xc3('"},                          // not continued
-                                     {"\xc0\xaf", "'\\xc0\\xaf'"},                   // longer than necessary
-                                     {"\xe0\x80\xaf", "'\\xe0\\x80\\xaf'"},          // longer than necessary
-                                     {"\xed\xa0\x80", "'\\xed\\xa0\\x80'"},          // half of a surrogate pair
-                                     {"\xf4\x90\x80\x80", "'\\xf4\\x90\\x80\\x80'"}  // beyond Unicode
-                                    }) {
+  for (const auto& [bytes, shown] : {
+           std::pair{"\xff", "'\\xff'"},
+           {"a\x80z", "'a\\x80z'"},
+           {"\xc3", "'\\xc3'"},                            // cut off
+           {"\xc3(", "'\\xc3('"},                          // not continued
+           {"\xc0\xaf", "'\\xc0\\xaf'"},                   // longer than necessary
+           {"\xe0\x80\xaf", "'\\xe0\\x80\\xaf'"},          // longer than necessary
+           {"\xed\xa0\x80", "'\\xed\\xa0\\x80'"},          // half of a surrogate pair
+           {"\xf4\x90\x80\x80", "'\\xf4\\x90\\x80\\x80'"}  // beyond Unicode
+       }) {
     EXPECT_EQ(base::quoted(bytes), shown);
   }
 }

@@ -1,10 +1,11 @@
 // Tests arrays in requests and answers that are plain numbers instead of bytes.
+#include "rpc/tensor.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "rpc/answer_limit.h"
-#include "rpc/tensor.h"
 
 namespace isofield::rpc {
 namespace {
@@ -25,10 +26,9 @@ absl::Status refused(const v1::Tensor& tensor) {
 }
 
 TEST(NumberRows, AreReadWithOrWithoutTypeAndShape) {
-  for (const v1::Tensor& t :
-       {tensor({0, 0.5, -1, 1, 2, 3}), tensor({0, 0.5, -1, 1, 2, 3}, {2, 3}),
-        tensor({0, 0.5, -1, 1, 2, 3}, {}, v1::Tensor::FLOAT32),
-        tensor({0, 0.5, -1, 1, 2, 3}, {2, 3}, v1::Tensor::FLOAT64)}) {
+  for (const v1::Tensor& t : {tensor({0, 0.5, -1, 1, 2, 3}), tensor({0, 0.5, -1, 1, 2, 3}, {2, 3}),
+                              tensor({0, 0.5, -1, 1, 2, 3}, {}, v1::Tensor::FLOAT32),
+                              tensor({0, 0.5, -1, 1, 2, 3}, {2, 3}, v1::Tensor::FLOAT64)}) {
     const auto array = RowArray::read(t, 3, 1 << 20, kWords);
     ASSERT_TRUE(array.ok()) << array.status();
     EXPECT_EQ(std::vector<float>(array->numbers().begin(), array->numbers().end()),
@@ -62,8 +62,7 @@ TEST(NumberRows, AreAtMost4096) {
   EXPECT_TRUE(refused(most).ok());
   most.mutable_numbers()->Resize(3 * 4097, 1.0);
   EXPECT_EQ(refused(most).code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_NE(refused(most).message().find("points.numbers holds 4097 points: expected at most 4096"),
-            std::string::npos);
+  EXPECT_NE(refused(most).message().find("points.numbers holds 4097 points: expected at most 4096"), std::string::npos);
   EXPECT_TRUE(check_number_rows(true, 4096).ok());
   EXPECT_TRUE(check_number_rows(false, 4097).ok());
   EXPECT_EQ(check_number_rows(true, 4097).code(), absl::StatusCode::kInvalidArgument);

@@ -114,9 +114,9 @@ std::string expected_value(const FieldDescriptor& field) {
     case FieldDescriptor::CPPTYPE_BOOL:
       return "true or false";
     default: {
-      const char* kind = field.is_repeated()                                        ? "numbers separated by commas"
+      const char* kind = field.is_repeated()                                   ? "numbers separated by commas"
                          : field.cpp_type() == FieldDescriptor::CPPTYPE_UINT32 ? "a whole number"
-                                                                                    : "a number";
+                                                                               : "a number";
       const std::string accepts = range_of(field).accepts;
       return accepts.empty() ? kind : absl::StrCat(kind, ": ", accepts);
     }

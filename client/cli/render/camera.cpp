@@ -60,10 +60,10 @@ void place_camera(std::span<const float> positions, const View& view, Camera& ca
   const float above = view.target ? 0 : (most.up - most.down) / 2;
   const float size = std::max({high.x - low.x, high.y - low.y, high.z - low.z, std::numeric_limits<float>::min()});
   camera.target = center + camera.right * aside + camera.up * above;
-  camera.distance = view.distance ? static_cast<float>(*view.distance)
-                                  : std::max({(most.right - aside) / tan_x, (most.left + aside) / tan_x,
-                                              (most.up - above) / tan_y, (most.down + above) / tan_y,
-                                              most.nearest + 1e-3f * size});
+  camera.distance =
+      view.distance ? static_cast<float>(*view.distance)
+                    : std::max({(most.right - aside) / tan_x, (most.left + aside) / tan_x, (most.up - above) / tan_y,
+                                (most.down + above) / tan_y, most.nearest + 1e-3f * size});
 }
 
 }  // namespace

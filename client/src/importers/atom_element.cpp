@@ -107,9 +107,9 @@ bool is_charge(absl::string_view suffix) {
 }  // namespace
 
 bool is_water(absl::string_view residue) {
-  constexpr std::array<absl::string_view, 24> kNames = {
-      "HOH",  "WAT",  "DOD",  "D2O", "H2O", "HHO", "OHH", "HH0", "OH2", "SOL",  "SPC",  "SPCE",
-      "TIP",  "TIP2", "TIP3", "TIP4", "TIP5", "TP3", "TP4", "TP5", "T3P", "T4P", "T5P", "WTR"};
+  constexpr std::array<absl::string_view, 24> kNames = {"HOH",  "WAT", "DOD", "D2O",  "H2O", "HHO",  "OHH",  "HH0",
+                                                        "OH2",  "SOL", "SPC", "SPCE", "TIP", "TIP2", "TIP3", "TIP4",
+                                                        "TIP5", "TP3", "TP4", "TP5",  "T3P", "T4P",  "T5P",  "WTR"};
   return residue.size() <= 5 && is_one_of(upper(residue.substr(0, 4)), kNames);
 }
 
@@ -149,8 +149,8 @@ const Element* element_of_label(absl::string_view label) {
 
 const Element* element_of_force_field_name(absl::string_view name) {
   const absl::string_view letters = leading_letters(name);
-  const bool capitals = std::none_of(letters.begin(), letters.end(),
-                                     [](unsigned char c) { return absl::ascii_islower(c); });
+  const bool capitals =
+      std::none_of(letters.begin(), letters.end(), [](unsigned char c) { return absl::ascii_islower(c); });
   const bool charged = name.find_first_of("+-") != absl::string_view::npos;
   return capitals && !charged ? lightest(letters) : element_of_label(name);
 }

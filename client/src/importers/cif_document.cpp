@@ -16,8 +16,8 @@ absl::StatusOr<gemmi::cif::Document> guarded(absl::string_view format, const Rea
   try {
     return read();
   } catch (const tao::pegtl::parse_error& error) {
-    return absl::InvalidArgumentError(absl::StrCat("line ", error.positions().front().line, ": not ", format, ": ",
-                                                   std::string(error.message())));
+    return absl::InvalidArgumentError(
+        absl::StrCat("line ", error.positions().front().line, ": not ", format, ": ", std::string(error.message())));
   } catch (const std::exception& error) {
     return absl::InvalidArgumentError(absl::StrCat("not ", format, ": ", error.what()));
   }

@@ -25,13 +25,28 @@ namespace {
 constexpr char kCategory[] = "_atom_site.";
 // The tags in the form of gemmi: "?" stands before those that may be missing. Their order is that of Column.
 const std::vector<std::string> kTags = {
-    "Cartn_x",       "Cartn_y",        "Cartn_z",       "?id",             "?pdbx_PDB_model_num", "?type_symbol",
-    "?occupancy",    "?label_alt_id",  "?auth_asym_id", "?label_asym_id",  "?auth_comp_id",       "?label_comp_id",
-    "?auth_seq_id",  "?label_seq_id",  "?auth_atom_id", "?label_atom_id",  "?pdbx_PDB_ins_code"};
+    "Cartn_x",        "Cartn_y",           "Cartn_z",       "?id",           "?pdbx_PDB_model_num",
+    "?type_symbol",   "?occupancy",        "?label_alt_id", "?auth_asym_id", "?label_asym_id",
+    "?auth_comp_id",  "?label_comp_id",    "?auth_seq_id",  "?label_seq_id", "?auth_atom_id",
+    "?label_atom_id", "?pdbx_PDB_ins_code"};
 enum Column {
-  kX, kY, kZ, kId, kModel, kSymbol,
-  kOccupancy, kAltloc, kAuthorChain, kChain, kAuthorResidue, kResidue,
-  kAuthorNumber, kNumber, kAuthorName, kName, kInsertion
+  kX,
+  kY,
+  kZ,
+  kId,
+  kModel,
+  kSymbol,
+  kOccupancy,
+  kAltloc,
+  kAuthorChain,
+  kChain,
+  kAuthorResidue,
+  kResidue,
+  kAuthorNumber,
+  kNumber,
+  kAuthorName,
+  kName,
+  kInsertion
 };
 
 // Returns a value without its quotes. It is empty where the file says "?" (unknown) or "." (not applicable).

@@ -149,9 +149,11 @@ absl::StatusOr<int> choose_frame(absl::string_view kind, int frames, const Impor
                                  ImportReport& report) {
   const int frame = options.frame.value_or(1);
   if (frame > frames) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        kind, " ", frame, " is not in the file, which has ", frames, " ", kind, frames == 1 ? "" : "s",
-        frames > 1 ? absl::StrCat("; expected 1 to ", frames) : frames == 1 ? "; expected 1" : ""));
+    return absl::InvalidArgumentError(absl::StrCat(kind, " ", frame, " is not in the file, which has ", frames, " ",
+                                                   kind, frames == 1 ? "" : "s",
+                                                   frames > 1    ? absl::StrCat("; expected 1 to ", frames)
+                                                   : frames == 1 ? "; expected 1"
+                                                                 : ""));
   }
   if (frames > 1) {
     note(report, absl::StrCat("file of ", frames, " ", kind, "s: ", kind, " ", frame, " is taken"), 0, "", false);

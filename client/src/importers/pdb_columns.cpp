@@ -70,9 +70,7 @@ bool is_residue_number(absl::string_view field) {
 // numbers in a row it is unknown whether a coordinate or a factor is missing.
 std::optional<std::string> from_fields(absl::string_view line) {
   std::vector<absl::string_view> fields = split_fields(line);
-  const auto has_point = [](absl::string_view field) {
-    return absl::StrContains(field, '.') && is_number(field);
-  };
+  const auto has_point = [](absl::string_view field) { return absl::StrContains(field, '.') && is_number(field); };
   const auto first = static_cast<std::size_t>(std::find_if(fields.begin(), fields.end(), has_point) - fields.begin());
   const auto end = static_cast<std::size_t>(
       std::find_if_not(fields.begin() + static_cast<std::ptrdiff_t>(first), fields.end(), has_point) - fields.begin());

@@ -86,9 +86,7 @@ class NameStyle {
     known_ = true;
     left_justified_ = name[0] != ' ';
   }
-  NameColumns columns() const {
-    return left_justified_ ? NameColumns::kLeftJustified : NameColumns::kRightJustified;
-  }
+  NameColumns columns() const { return left_justified_ ? NameColumns::kLeftJustified : NameColumns::kRightJustified; }
 
  private:
   // Returns true for "C", "N1", "O12" and the like: a letter with nothing but digits after it cannot be another

@@ -32,9 +32,8 @@ void note_trees(const std::vector<SwcSample>& samples, ImportReport& report) {
 // would hardly be more than its membranes, which are 0.01 um thick.
 void note_size(const std::vector<SwcSample>& samples, ImportReport& report) {
   constexpr double kLargest = 100, kSmallest = 0.02;
-  const auto& widest = *std::max_element(samples.begin(), samples.end(), [](const SwcSample& a, const SwcSample& b) {
-    return a.radius < b.radius;
-  });
+  const auto& widest = *std::max_element(samples.begin(), samples.end(),
+                                         [](const SwcSample& a, const SwcSample& b) { return a.radius < b.radius; });
   if (widest.radius > kLargest) {
     note(report,
          absl::StrCat("the largest radius, ", widest.radius,

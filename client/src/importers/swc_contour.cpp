@@ -143,9 +143,8 @@ std::optional<Contour> fit_contour(const std::vector<glm::dvec3>& points, bool i
     flat.push_back({glm::dot(arm, u), glm::dot(arm, v)});
   }
   if (!in_order) {
-    std::sort(flat.begin(), flat.end(), [](const Point2& a, const Point2& b) {
-      return std::atan2(a[1], a[0]) < std::atan2(b[1], b[0]);
-    });
+    std::sort(flat.begin(), flat.end(),
+              [](const Point2& a, const Point2& b) { return std::atan2(a[1], a[0]) < std::atan2(b[1], b[0]); });
   }
   const Polygon polygon(flat);
   if (!(polygon.roundness() >= (in_order ? kLeastRoundness : kLeastRoundnessByAngle))) return std::nullopt;

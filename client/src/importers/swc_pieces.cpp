@@ -90,8 +90,7 @@ class PieceMaker {
   void enter_soma(int i) {
     const SwcSample& parent = samples_[samples_[i].parent];
     const Joint joint = join_soma(somata_, i, parent.center, samples_);
-    const std::string name =
-        absl::StrCat(piece_name(samples_[i]), soma_of(i).form == SomaForm::kFrusta ? "" : "/edge");
+    const std::string name = absl::StrCat(piece_name(samples_[i]), soma_of(i).form == SomaForm::kFrusta ? "" : "/edge");
     if (!joint.contains(parent.center)) {
       add_segment(name, end_of(parent), {joint.surface(joint.target, parent.center), parent.radius});
     } else if (parent.radius > joint.width && glm::distance(parent.center, joint.target) > 0) {

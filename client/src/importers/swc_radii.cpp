@@ -24,8 +24,8 @@ std::vector<int> nearest_with_radius(const std::vector<int>& order, const std::v
     }
     const int parent = samples[*i].parent;
     if (parent == kNoParent || nearest[*i] == kNoParent) continue;
-    const bool is_nearer = steps[*i] + 1 < steps[parent] ||
-                           (steps[*i] + 1 == steps[parent] && nearest[*i] < nearest[parent]);
+    const bool is_nearer =
+        steps[*i] + 1 < steps[parent] || (steps[*i] + 1 == steps[parent] && nearest[*i] < nearest[parent]);
     if (is_nearer) {
       nearest[parent] = nearest[*i];
       steps[parent] = steps[*i] + 1;

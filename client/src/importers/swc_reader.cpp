@@ -70,9 +70,8 @@ class SampleReader {
     if (fields.size() < kColumns) return damage("line dropped: expected \"id type x y z radius parent\"");
     const auto id = parse_integer64(fields[kId]);
     if (!id) {
-      return damage(parse_double(fields[kId])
-                        ? "line dropped: its id is not a whole number of at most 64 bits"
-                        : "line dropped: expected \"id type x y z radius parent\"");
+      return damage(parse_double(fields[kId]) ? "line dropped: its id is not a whole number of at most 64 bits"
+                                              : "line dropped: expected \"id type x y z radius parent\"");
     }
     if (fields.size() > kColumns) remark("line with more than 7 columns: the others are ignored");
     SwcSample sample;
@@ -83,9 +82,10 @@ class SampleReader {
       const auto coordinate = parse_double(fields[kX + axis]);
       sample.center[axis] = coordinate.value_or(NAN) * scale_[axis];
       if (!(std::abs(sample.center[axis]) <= kFarthest)) {
-        return damage(absl::StrCat("sample dropped: a coordinate is not a finite number of a usable size (magnitude at "
-                                   "most ",
-                                   kFarthest, ")"));
+        return damage(
+            absl::StrCat("sample dropped: a coordinate is not a finite number of a usable size (magnitude at "
+                         "most ",
+                         kFarthest, ")"));
       }
     }
     if (!ids_.insert(*id).second) return damage("sample dropped: its id was used before");

@@ -96,9 +96,8 @@ std::string without_header(const std::string& text, const std::vector<TextLine>&
 
 absl::Status import_xyz(const std::string& text, const ImportOptions& options, Imported& imported) {
   const std::vector<TextLine> lines = read_lines(text);
-  const auto first = std::find_if(lines.begin(), lines.end(), [](const TextLine& line) {
-    return !line.text.empty() && line.text.front() != '#';
-  });
+  const auto first = std::find_if(lines.begin(), lines.end(),
+                                  [](const TextLine& line) { return !line.text.empty() && line.text.front() != '#'; });
   const auto header_line = static_cast<std::size_t>(first - lines.begin());
   const auto header = first == lines.end() ? std::nullopt : parse_header(first->text);
   if (!header) return import_points(text, options, imported);

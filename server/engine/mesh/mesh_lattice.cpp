@@ -97,8 +97,7 @@ absl::StatusOr<Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshReque
 
 absl::StatusOr<SurfaceBricks> surface_bricks(const blobtree::Tape& tape, const MeshRequest& request,
                                              const std::optional<blobtree::BrickSet>& within, std::uint64_t max_bricks,
-                                             const std::function<bool()>& cancelled,
-                                             const base::ForEach& for_each) {
+                                             const std::function<bool()>& cancelled, const base::ForEach& for_each) {
   const auto find = [&]() -> absl::StatusOr<SurfaceBricks> {
     ISOFIELD_ASSIGN_OR_RETURN(Lattice lattice, mesh_lattice(tape, request));
     if (!within) {

@@ -21,9 +21,8 @@ using gpu::Buffer;
 // Finds the crossings of all slabs before any vertex is placed, since a vertex needs those of neighbouring bricks, too.
 absl::StatusOr<Buffer> find_all_crossings(PartOnDevice& part, const std::vector<MeshSlab>& slabs,
                                           const PartElements& elements) {
-  ISOFIELD_ASSIGN_OR_RETURN(
-      Buffer crossings,
-      Buffer::create(part.device, std::size_t{12} * elements.quad_count(), Buffer::Use::kDevice));
+  ISOFIELD_ASSIGN_OR_RETURN(Buffer crossings,
+                            Buffer::create(part.device, std::size_t{12} * elements.quad_count(), Buffer::Use::kDevice));
   for (std::size_t s = 0; s < slabs.size(); ++s) {
     ISOFIELD_RETURN_IF_ERROR(part.check(0.65 + 0.1 * s / slabs.size()));
     ISOFIELD_RETURN_IF_ERROR(find_crossings(part, slabs[s], elements, crossings, [&](std::uint32_t b) {
@@ -104,8 +103,8 @@ absl::Status make_triangles(PartOnDevice& part, const std::vector<MeshSlab>& sla
                      {binding::mesh::kQuads, &elements.quads},
                      {binding::mesh::kCrossings, &crossings}},
                     std::span(elements.starts).first(part.owned + 1), checked);
-  const bool is_smooth = std::none_of(part.kinds.begin(), part.kinds.end(),
-                                      [](std::uint32_t kind) { return (kind & kMayCrease) != 0; });
+  const bool is_smooth =
+      std::none_of(part.kinds.begin(), part.kinds.end(), [](std::uint32_t kind) { return (kind & kMayCrease) != 0; });
   ISOFIELD_RETURN_IF_ERROR(cutter.cut(vertices.positions, vertices.kinds, is_smooth));
   const auto is_unknown = [&](std::uint32_t b) {
     return b < part.owned && !part.is(b, kKnowsCrossings) && cutter.has_fans(b);

@@ -85,19 +85,18 @@ absl::Status settle_samples(gpu::Device& device, const Kernels& kernels, BrickTa
                             session.lend_scratch(sizeof(float) * kCornersPerBrick * near_bricks.size()));
   ISOFIELD_ASSIGN_OR_RETURN(const Buffer* const octet_list, session.lend(std::span(octets)));
   ISOFIELD_ASSIGN_OR_RETURN(const Buffer* const unused, session.lend_scratch(4 * is_near.size()));
-  ISOFIELD_RETURN_IF_ERROR(
-      tapes.run(session, shaders::kMeshSample, constants, jobs, kOctetsPerWorkgroup,
-                {{binding::lattice::kBricks, &bricks}, {binding::mesh_sample::kSamples, beside}}));
+  ISOFIELD_RETURN_IF_ERROR(tapes.run(session, shaders::kMeshSample, constants, jobs, kOctetsPerWorkgroup,
+                                     {{binding::lattice::kBricks, &bricks}, {binding::mesh_sample::kSamples, beside}}));
   session.commands().barrier();
   MeshConstants of_octets = constants;
   of_octets.count = static_cast<std::uint32_t>(octets.size());
-  ISOFIELD_RETURN_IF_ERROR(
-      session.commands().dispatch(settle,
-                                  {{binding::mesh_settle::kOctets, octet_list},
-                                   {binding::mesh_settle::kSamples, &slab.samples},
-                                   {binding::mesh_settle::kBeside, beside},
-                                   {binding::mesh_settle::kListed, &listed}},
-                                  of_octets, mesh_groups(std::uint64_t{of_octets.count} * kOctetCorners)));
+  ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(settle,
+                                                       {{binding::mesh_settle::kOctets, octet_list},
+                                                        {binding::mesh_settle::kSamples, &slab.samples},
+                                                        {binding::mesh_settle::kBeside, beside},
+                                                        {binding::mesh_settle::kListed, &listed}},
+                                                       of_octets,
+                                                       mesh_groups(std::uint64_t{of_octets.count} * kOctetCorners)));
   session.commands().barrier();
   ISOFIELD_RETURN_IF_ERROR(classify(session, kernels, constants, slab, *unused, listed));
   return session.run();

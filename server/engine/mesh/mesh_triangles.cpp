@@ -32,13 +32,12 @@ absl::Status QuadCutter::cut(const Buffer& positions, const Buffer& kinds, bool 
     MeshConstants constants = constants_;
     constants.first = first;
     constants.count = std::min(most, total - first);
-    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        kernel,
-        with_quads({{binding::mesh::kPositions, &positions},
-                    {binding::mesh_quads::kCuts, &cuts_buffer_},
-                    {binding::mesh_quads::kKinds, &kinds},
-                    {binding::mesh_quads::kCorners, &corners_}}),
-        constants, mesh_groups(constants.count)));
+    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(kernel,
+                                                         with_quads({{binding::mesh::kPositions, &positions},
+                                                                     {binding::mesh_quads::kCuts, &cuts_buffer_},
+                                                                     {binding::mesh_quads::kKinds, &kinds},
+                                                                     {binding::mesh_quads::kCorners, &corners_}}),
+                                                         constants, mesh_groups(constants.count)));
     if (first + constants.count == total) {
       ISOFIELD_RETURN_IF_ERROR(session.download(cuts_buffer_, std::span(cuts_)));
     }
@@ -82,14 +81,14 @@ absl::StatusOr<Buffer> QuadCutter::make(std::vector<std::uint32_t>& corners, std
     MeshConstants constants = constants_;
     constants.first = first;
     constants.count = count;
-    ISOFIELD_RETURN_IF_ERROR(session.commands().dispatch(
-        kernel,
-        with_quads({{binding::mesh_triangles::kCorners, &corners_},
-                    {binding::mesh_triangles::kCuts, &cuts_buffer_},
-                    {binding::mesh_triangles::kTriangles, triangles},
-                    {binding::mesh_triangles::kCentres, &centres},
-                    {binding::mesh_triangles::kFanStarts, &fan_starts_buffer_}}),
-        constants, mesh_groups(count)));
+    ISOFIELD_RETURN_IF_ERROR(
+        session.commands().dispatch(kernel,
+                                    with_quads({{binding::mesh_triangles::kCorners, &corners_},
+                                                {binding::mesh_triangles::kCuts, &cuts_buffer_},
+                                                {binding::mesh_triangles::kTriangles, triangles},
+                                                {binding::mesh_triangles::kCentres, &centres},
+                                                {binding::mesh_triangles::kFanStarts, &fan_starts_buffer_}}),
+                                    constants, mesh_groups(count)));
     ISOFIELD_RETURN_IF_ERROR(session.download(*triangles, std::span(corners).subspan(begin, end - begin)));
     if (first + count == total) {
       ISOFIELD_RETURN_IF_ERROR(session.download(centres, std::span(positions)));

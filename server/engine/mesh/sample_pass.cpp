@@ -38,9 +38,8 @@ absl::Status evaluate_octets(Session& session, PartOnDevice& part, const MeshSla
   }
   MeshConstants constants = part.constants;
   constants.shift = 0;
-  return part.tapes.run(
-      session, shaders::kMeshSample, constants, jobs, kOctetsPerWorkgroup,
-      {{binding::lattice::kBricks, &part.bricks}, {binding::mesh_sample::kSamples, &slab.samples}});
+  return part.tapes.run(session, shaders::kMeshSample, constants, jobs, kOctetsPerWorkgroup,
+                        {{binding::lattice::kBricks, &part.bricks}, {binding::mesh_sample::kSamples, &slab.samples}});
 }
 
 // Records the copies of the other octets.
@@ -85,8 +84,8 @@ absl::StatusOr<MeshSlab> sample_slab(PartOnDevice& part, std::uint32_t first, co
 absl::StatusOr<PartSamples> sample_corners(PartOnDevice& part) {
   PartSamples samples;
   const std::uint32_t total = part.total();
-  ISOFIELD_ASSIGN_OR_RETURN(samples.cases, Buffer::create(part.device, std::size_t{total} * blobtree::kCellsPerBrick,
-                                                          Buffer::Use::kDevice));
+  ISOFIELD_ASSIGN_OR_RETURN(
+      samples.cases, Buffer::create(part.device, std::size_t{total} * blobtree::kCellsPerBrick, Buffer::Use::kDevice));
   for (std::uint32_t first = 0; first < total;) {
     ISOFIELD_RETURN_IF_ERROR(part.check(0.1 + 0.5 * first / total));
     ISOFIELD_ASSIGN_OR_RETURN(MeshSlab slab, sample_slab(part, first, samples.cases));

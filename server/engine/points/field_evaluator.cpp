@@ -122,8 +122,7 @@ absl::Status FieldEvaluator::evaluate_indexed(const PointIndex& index, const Res
                                               std::span<const float> xyz, ResultLayout layout, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
   const std::size_t count = xyz.size() / 3, bricks = index.tapes().size();
-  const std::size_t most =
-      std::max<std::size_t>(profile().indexed_points, profile().indexed_points_per_brick * bricks);
+  const std::size_t most = std::max<std::size_t>(profile().indexed_points, profile().indexed_points_per_brick * bricks);
   const std::uint32_t points_per_job = this->points_per_job();
   std::optional<Slab> running;
   for (std::size_t first = 0; first < count; first += most) {
@@ -238,10 +237,9 @@ absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const points, session.input(xyz.subspan(3 * first, 3 * part)));
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::Buffer* const results, session.output(part_out));
     const auto last = static_cast<std::uint32_t>(part - 1);
-    ISOFIELD_RETURN_IF_ERROR(
-        dispatch(session,
-                 gpu::Commands::Bindings{{binding::points::kPoints, points}, {binding::points::kResults, results}},
-                 last, last / kPointsPerGroup + 1));
+    ISOFIELD_RETURN_IF_ERROR(dispatch(
+        session, gpu::Commands::Bindings{{binding::points::kPoints, points}, {binding::points::kResults, results}},
+        last, last / kPointsPerGroup + 1));
     ISOFIELD_RETURN_IF_ERROR(session.download(*results, part_out));
     ISOFIELD_RETURN_IF_ERROR(submit_after(running, std::move(slab)));
   }
@@ -251,8 +249,8 @@ absl::Status FieldEvaluator::evaluate_in_order(std::size_t most, std::span<const
 absl::Status FieldEvaluator::evaluate_written(const gpu::SharedPipeline& kernel, const ResidentScene& scene,
                                               std::span<const float> xyz, ResultLayout layout, std::span<float> out,
                                               const Cancelled& cancelled, Submission submission) {
-  const std::size_t most = std::max<std::size_t>(
-      profile().written_work / WrittenKernels::work_of(scene.tape()), kPointsPerGroup);
+  const std::size_t most =
+      std::max<std::size_t>(profile().written_work / WrittenKernels::work_of(scene.tape()), kPointsPerGroup);
   return evaluate_in_order(
       most, xyz, layout, out, cancelled, std::move(submission),
       [&](Session& session, const gpu::Commands::Bindings& own, std::uint32_t last, std::uint32_t groups) {
@@ -325,8 +323,7 @@ absl::Status FieldEvaluator::evaluate_layers(const ResidentScene& scene, const b
     ISOFIELD_ASSIGN_OR_RETURN(const gpu::SharedPipeline kernel, kernels_.get(shader, tapes.kind(kind, run.window)));
     return session.commands().dispatch(
         kernel,
-        tapes.bindings(run.window,
-                       {{binding::lattice::kBricks, brick_buffer}, {binding::points::kResults, results}}),
+        tapes.bindings(run.window, {{binding::lattice::kBricks, brick_buffer}, {binding::points::kResults, results}}),
         constants, run.count);
   }));
   ISOFIELD_RETURN_IF_ERROR(session.download(*results, out));

@@ -84,7 +84,8 @@ class WrittenKernels {
   mutable base::Mutex mutex_;
   base::Condition wanted_more_, made_one_;
   std::map<Key, Entry> entries_ ABSL_GUARDED_BY(mutex_);
-  std::uint64_t uses_ ABSL_GUARDED_BY(mutex_) = 0, held_ ABSL_GUARDED_BY(mutex_) = 0;  // calls of find(); kernels that exist or are wanted
+  std::uint64_t uses_ ABSL_GUARDED_BY(mutex_) = 0, held_ ABSL_GUARDED_BY(mutex_) =
+                                                       0;  // calls of find(); kernels that exist or are wanted
   std::deque<Wanted> wanted_ ABSL_GUARDED_BY(mutex_);
   bool is_at_work_ ABSL_GUARDED_BY(mutex_) = false, is_over_ ABSL_GUARDED_BY(mutex_) = false;
   Counts counts_ ABSL_GUARDED_BY(mutex_);
