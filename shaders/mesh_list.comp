@@ -27,7 +27,9 @@ void main() {
       uint patches = case_patches(surface_cases[cell_case(cell)]);
       for (uint n = 0u; n < patches; ++n) vertex_list[vertex++] = c | n << 8u;
       for (uint axis = 0u; axis < 3u; ++axis) {
-        if ((own_crossings(inside) >> axis & 1u) != 0u) quad_list[quad++] = uvec2(b, c | axis << 8u | (inside & 1u) << 10u);
+        if ((own_crossings(inside) >> axis & 1u) != 0u) {
+          quad_list[quad++] = uvec2(b, c | axis << 8u | (inside & 1u) << 10u);
+        }
       }
     }
   }

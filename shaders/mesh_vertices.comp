@@ -86,7 +86,8 @@ void main() {
       // closer.
       vec3 moved = abs(newton - p);
       bool is_stuck = max(max(moved.x, moved.y), moved.z) <= tolerance * size;
-      done = done || abs(excess) <= (is_stuck || keeps_off ? max(tolerance, 2.0 * MARGIN) : tolerance) * size * sqrt(slope2);
+      float allowed = is_stuck || keeps_off ? max(tolerance, 2.0 * MARGIN) : tolerance;
+      done = done || abs(excess) <= allowed * size * sqrt(slope2);
       if (excess > 0.0) inner = p; else outer = p;
       if (step == NEWTON_STEPS - 1) {
         // The bisection keeps the side that p is on, and starts from the patch's own corner on the other side.

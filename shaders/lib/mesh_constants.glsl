@@ -31,7 +31,9 @@ float cap_value() { return (flags & IS_SIGNED) != 0u ? iso - origin.w : 0.0; }
 
 vec3 corner_position(uvec3 i) { return lattice_point(origin.xyz, vec3(origin.w), i); }
 
-uvec3 cell_in_brick(uint c) { return uvec3(c % BRICK_CELLS, c / BRICK_CELLS % BRICK_CELLS, c / (BRICK_CELLS * BRICK_CELLS)); }
+uvec3 cell_in_brick(uint c) {
+  return uvec3(c % BRICK_CELLS, c / BRICK_CELLS % BRICK_CELLS, c / (BRICK_CELLS * BRICK_CELLS));
+}
 
 uvec3 corner_offset(uint corner) { return uvec3(corner & 1u, corner >> 1u & 1u, corner >> 2u); }
 

@@ -26,7 +26,8 @@ Crossing crossing_of(uint b, uvec3 cell, uint edge) {
   uvec3 low = edge_offset(edge);
   uint axis = edge >> 2u;
   CellRef owner = cell_ref(b, ivec3(cell + low));
-  if (owner.brick == NO_BRICK) return Crossing(vec3(0.5), vec3(axis_vector(axis)), false);  // unreachable: a cell with a crossing edge is never culled
+  // This is never reached, since a cell with a crossing edge is never culled.
+  if (owner.brick == NO_BRICK) return Crossing(vec3(0.5), vec3(axis_vector(axis)), false);
   uint state = cells_in[owner.brick * CELLS_PER_BRICK + owner.cell];
   uint before = own_crossings(state) & ((1u << axis) - 1u);
   uint q = starts[owner.brick].y + cell_quad(state) + uint(bitCount(before));

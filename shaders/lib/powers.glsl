@@ -21,7 +21,8 @@ vec2 logarithm(float x) {
   precise float g2 = ((f - g1) - half_square) - 0.5 * f2 * (f + f1);
   // log2(e) is a sum of two floats, the first with 12 bits.
   precise float head = 1.4423828125 * g1;
-  precise float tail = 3.122283889634e-4 * g1 + 1.44269504 * g2 + f * f * f * logarithm_value(2.82842712 * f - 0.171572875);
+  precise float tail =
+      3.122283889634e-4 * g1 + 1.44269504 * g2 + f * f * f * logarithm_value(2.82842712 * f - 0.171572875);
   precise float sum = (float(exponent) + head) + tail, high = leading(sum);
   precise float low = ((float(exponent) - high) + head) + tail;
   return vec2(high, low);

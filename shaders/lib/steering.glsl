@@ -32,7 +32,8 @@ struct Angle {
 };
 Angle angle_between(Field a, Field b) {
   // Directions that are too long to be squared are scaled down.
-  float longest1 = max(max(abs(a.d.x), abs(a.d.y)), abs(a.d.z)), longest2 = max(max(abs(b.d.x), abs(b.d.y)), abs(b.d.z));
+  float longest1 = max(max(abs(a.d.x), abs(a.d.y)), abs(a.d.z));
+  float longest2 = max(max(abs(b.d.x), abs(b.d.y)), abs(b.d.z));
   float scale1 = longest1 > 1e15 ? 1.0 / longest1 : 1.0, scale2 = longest2 > 1e15 ? 1.0 / longest2 : 1.0;
   a.d *= scale1;
   b.d *= scale2;
@@ -56,7 +57,8 @@ Angle angle_between(Field a, Field b) {
   Dual versine = chain(cosine, 0.5 * dot(apart, apart), -1.0);
   bool is_extreme = value_of(ratio) < 1.0 / MOST_RATIO || value_of(ratio) > MOST_RATIO;
   return Angle(select_dual(cosine, dual(0.0), is_null), select_dual(versine, dual(1.0), is_null),
-               select_dual(ratio, dual(is_null ? 1.0 : clamp(value_of(ratio), 1.0 / MOST_RATIO, MOST_RATIO)), is_null || is_extreme));
+               select_dual(ratio, dual(is_null ? 1.0 : clamp(value_of(ratio), 1.0 / MOST_RATIO, MOST_RATIO)),
+                           is_null || is_extreme));
 }
 
 Angle no_angle() { return Angle(dual(0.0), dual(1.0), dual(1.0)); }

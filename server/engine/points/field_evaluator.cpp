@@ -108,8 +108,9 @@ absl::Status FieldEvaluator::evaluate(const ResidentScene& scene, std::span<cons
   TapeWindows tapes(device_, scene, std::move(binned.code));
   std::vector<Bin> bins;
   for (const blobtree::PointGroup& g : binned.groups) {
-    Bin& bin = bins.emplace_back(g.first, g.count, g.tape_begin, g.tape_count, 0u);
+    Bin bin{g.first, g.count, g.tape_begin, g.tape_count, 0};
     if (g.tape_count > 0) bin.window = tapes.add(bin.tape_begin, g.tape_count);
+    bins.push_back(bin);
   }
   ISOFIELD_ASSIGN_OR_RETURN(Slab slab, begin_slab(submission));
   slab.sorted = std::move(binned.points);
