@@ -254,6 +254,9 @@ TEST_F(CliTest, ExitCodesTellServersFilesAndUsageApart) {
   write_file(path("bad.json"), "{\"nodes\": [{]}");
   EXPECT_EQ(run("put " + path("bad.json")), 4);
   EXPECT_TRUE(absl::StrContains(err_, "bad.json:1:")) << err_;
+  for (const char* const name : {"none.json", "none.PB", "none.JSON.GZ", "none.SWC.GZ"}) {
+    EXPECT_EQ(run("eval " + path(name) + " --points -", "0 0 0\n"), 4) << name << ": " << err_;
+  }
   write_file(path("empty.json"), "{}");
   EXPECT_EQ(run("put " + path("empty.json")), 1);
   EXPECT_EQ(run(""), 2);
