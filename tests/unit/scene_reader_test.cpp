@@ -206,6 +206,21 @@ TEST(SceneReader, EmptyScenesAreRefused) {
   expect_refused({}, {"nodes is missing", "at least 1 node"});
 }
 
+TEST(SceneReader, NamesAndTheUnitHaveAtMost256Bytes) {
+  // These letters take two bytes each.
+  std::string longest;
+  for (int i = 0; i < 128; ++i) longest += "\xc3\xa9";
+  v1::Scene scene = scene_of_nodes(kBall);
+  scene.mutable_nodes(0)->set_name(longest);
+  scene.set_unit(longest);
+  EXPECT_TRUE(read_scene(scene).ok()) << read_scene(scene).status();
+  scene.set_unit(longest + "m");
+  expect_refused(scene, {"unit = ", "at most 256 bytes"});
+  scene.clear_unit();
+  scene.mutable_nodes(0)->set_name(longest + "m");
+  expect_refused(scene, {"nodes[0]", ".name = ", "at most 256 bytes"});
+}
+
 TEST(SceneReader, UnknownRootsAreRefused) {
   expect_refused(scene_message("{\"nodes\": [" + kBall + "], \"root\": \"bell\"}"), {"root = 'bell'", "expected"});
   expect_refused(scene_message("{\"nodes\": [" + kBall + "], \"root\": \"#1\"}"), {"root = '#1'", "expected"});
