@@ -207,12 +207,13 @@ absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
   for (const Node& node : scene.nodes) {
     if (!node.op) continue;
     const operators::Operator& op = *node.op;
-    profiles.add(op);
+    const char* const profile = profiles.add(op);
     if (const operators::VolumeKey key = op.volume_key(); key.size != 0) volumes.insert(key);
-    if (profiles.size() > limits.max_profiles) {
-      return absl::InvalidArgumentError(absl::StrCat(node.path, ".opening: more than ", limits.max_profiles,
-                                                     " different openings and silhouettes in one scene: expected at "
-                                                     "most so many; nodes may share them"));
+    if (profile && profiles.size() > limits.max_profiles) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(node.path, ".", profile, ": more than ", limits.max_profiles,
+                       " different openings, silhouettes and curves in one scene: expected at most so many; nodes may "
+                       "share them"));
     }
     if (volumes.size() > kMaxVolumes) {
       return absl::InvalidArgumentError(absl::StrCat(node.path, ".volume: more than ", kMaxVolumes,
