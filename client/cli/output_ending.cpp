@@ -17,7 +17,8 @@ struct Ending {
 constexpr char kMesh[] = "`isofield mesh` writes meshes";
 constexpr char kPicture[] = "`isofield render`, `isofield slice` and `isofield operator plot` draw pictures";
 constexpr char kPlot[] = "`isofield slice` and `isofield operator plot` draw such pictures";
-constexpr char kTable[] = "`isofield eval`, `ray`, `project`, `inside` and `slice` write tables";
+constexpr char kText[] = "`isofield eval`, `operator eval`, `ray`, `project`, `inside` and `slice` write tables";
+constexpr char kArray[] = "`isofield eval`, `ray`, `project`, `inside` and `slice` write tables as NumPy arrays";
 constexpr char kNobody[] = "no command writes such files";
 
 constexpr Ending kEndings[] = {
@@ -28,8 +29,8 @@ constexpr Ending kEndings[] = {
     {".png", kPicture},
     {".svg", kPlot},
     {".pdf", kPlot},
-    {".csv", kTable},
-    {".npy", kTable},
+    {".csv", kText},
+    {".npy", kArray},
     {".pb", "`isofield import` writes scenes"},
     {".json", "`isofield import` writes scenes, and `ray`, `project`, `inside` and `slice` write tables as JSON"},
     {".gltf", kNobody},

@@ -48,6 +48,12 @@ absl::Status unpack_member(absl::string_view& data, std::size_t limit, std::stri
 
 }  // namespace
 
+absl::string_view unpacked_name(absl::string_view name) {
+  constexpr absl::string_view kEnding = ".gz";
+  if (absl::EndsWithIgnoreCase(name, kEnding)) name.remove_suffix(kEnding.size());
+  return name;
+}
+
 bool is_gzip(absl::string_view data) {
   return absl::StartsWith(data, "\x1f\x8b");
 }

@@ -12,6 +12,10 @@ namespace isofield {
 // The most bytes that a packed file may hold, so that a small file cannot fill the memory.
 inline constexpr std::size_t kMostUnpackedBytes = std::size_t{4} << 30;
 
+// Returns the name without the ending .gz, in either case of letters, if it has this ending: the name of the file that
+// was packed.
+absl::string_view unpacked_name(absl::string_view name);
+
 // Returns true where the data begins with the two bytes that mark a gzip file.
 bool is_gzip(absl::string_view data);
 

@@ -5,6 +5,7 @@
 #include <absl/strings/strip.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "gzip.h"
 #include "json_misfit.h"
 
 namespace isofield {
@@ -40,7 +41,7 @@ bool is_json(absl::string_view content) {
 
 absl::Status parse_file(const std::string& content, const std::string& name, const std::string& what,
                         google::protobuf::Message& message) {
-  const bool is_binary = absl::EndsWithIgnoreCase(absl::StripSuffix(name, ".gz"), ".pb") && !is_json(content);
+  const bool is_binary = absl::EndsWithIgnoreCase(unpacked_name(name), ".pb") && !is_json(content);
   if (!is_binary) return parse_json(content, name, what, message);
   if (message.ParseFromString(content)) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(name, ": not a binary ", message.GetTypeName(), " message"));

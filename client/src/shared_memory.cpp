@@ -19,8 +19,12 @@ namespace {
 constexpr char kVersion = 1;
 constexpr std::size_t kMostKept = 4;
 
+absl::Status unavailable(const std::string& what, absl::string_view why) {
+  return absl::UnavailableError(absl::StrCat("shared memory: ", what, ": ", why));
+}
+
 absl::Status system_error(const std::string& what) {
-  return absl::UnavailableError(absl::StrCat("shared memory: ", what, ": ", std::strerror(errno)));
+  return unavailable(what, std::strerror(errno));
 }
 
 int connect_to(const std::string& path) {
@@ -35,7 +39,9 @@ int connect_to(const std::string& path) {
   if (descriptor < 0 || connect(descriptor, reinterpret_cast<const sockaddr*>(&name), sizeof(name)) == 0) {
     return descriptor;
   }
+  const int error = errno;
   close(descriptor);
+  errno = error;
   return -1;
 }
 
@@ -82,9 +88,14 @@ absl::StatusOr<std::unique_ptr<SharedMemory>> SharedMemory::open(const std::stri
   if (!is_sent) return system_error(absl::StrCat("a region of ", bytes, " bytes"));
   std::array<char, 4096> answer;
   const ssize_t got = recv(memory->socket_, answer.data(), answer.size(), 0);
+  if (got < 0) return system_error(socket_path);
+  if (got == 0) return unavailable(socket_path, "the daemon closed the connection without an answer");
   v1::OpenRegionResponse response;
-  if (got <= 0 || !response.ParseFromArray(answer.data(), static_cast<int>(got))) return system_error(socket_path);
+  if (!response.ParseFromArray(answer.data(), static_cast<int>(got))) {
+    return unavailable(socket_path, "the answer is no OpenRegionResponse");
+  }
   if (response.region().empty()) {
+    if (response.code() == 0) return unavailable(socket_path, "the answer has neither a region nor an error");
     return absl::Status(static_cast<absl::StatusCode>(response.code()), response.message());
   }
   memory->region_ = response.region();

@@ -17,7 +17,7 @@ namespace isofield {
 class SharedMemory {
  public:
   // Shares a new region of `bytes` bytes. `socket_path` is GetInfoResponse.shared_memory_socket. Errors are those of
-  // the daemon, or UNAVAILABLE with the words of the operating system.
+  // the daemon, or UNAVAILABLE where the operating system fails or the daemon gives no proper answer.
   static absl::StatusOr<std::unique_ptr<SharedMemory>> open(const std::string& socket_path, std::size_t bytes);
   ~SharedMemory();
   SharedMemory(const SharedMemory&) = delete;

@@ -5,6 +5,7 @@
 #include <google/protobuf/util/delimited_message_util.h>
 #include <google/protobuf/wrappers.pb.h>
 
+#include <limits>
 #include <utility>
 
 #include "base/quoted.h"
@@ -89,6 +90,10 @@ absl::StatusOr<std::uint64_t> Catalog::remove(const std::string& name) {
 }
 
 absl::StatusOr<std::shared_ptr<const Value>> Catalog::parse(const std::string& serialized) {
+  // Protobuf's streams count bytes in an int. A longer text would be cut, and operators at its end would be lost.
+  if (serialized.size() > std::numeric_limits<int>::max()) {
+    return absl::DataLossError("a kept scene has more than 2 GiB, which cannot be read");
+  }
   google::protobuf::io::ArrayInputStream in(serialized.data(), static_cast<int>(serialized.size()));
   v1::Scene scene;
   bool is_end = false;

@@ -143,8 +143,8 @@ absl::StatusOr<std::vector<ConfigLine>> read_config_file(const std::string& path
     absl::Status status = parse_line(rest, line);
     const auto [place, is_new] = places.emplace(line.key, number);
     if (status.ok() && !is_new) {
-      status = absl::InvalidArgumentError(absl::StrCat(line.key, " stands there twice: it was already set in line ",
-                                                       place->second, "; expected each key once"));
+      status = absl::InvalidArgumentError(absl::StrCat(line.key, " is set twice in this file: line ", place->second,
+                                                       " sets it, too; expected each key once"));
     }
     if (!status.ok()) return absl::InvalidArgumentError(absl::StrCat(path, ":", number, ": ", status.message()));
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
+#include <stdexcept>
 #include <thread>
 
 #include "gpu/buffer_impl.h"
@@ -194,7 +196,13 @@ Device::~Device() = default;
 
 absl::StatusOr<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
   try {
-    auto impl = std::make_unique<Impl>();
+    std::unique_ptr<Impl> impl;
+    try {
+      impl = std::make_unique<Impl>();
+    } catch (const std::runtime_error& error) {
+      // Vulkan-Hpp throws this if it cannot open Vulkan's library.
+      return absl::NotFoundError(absl::StrCat("no Vulkan: ", error.what()));
+    }
     impl->on_validation_message = options.on_validation_message;
     if (absl::Status s = create_instance(options, *impl); !s.ok()) return s;
     if (absl::Status s = pick_physical(options, *impl); !s.ok()) return s;
@@ -203,8 +211,10 @@ absl::StatusOr<std::unique_ptr<Device>> Device::create(const DeviceOptions& opti
     return std::unique_ptr<Device>(new Device(std::move(impl)));
   } catch (const vk::SystemError& error) {
     return to_status(error, "opening the device");
+  } catch (const std::bad_alloc&) {
+    return absl::ResourceExhaustedError("opening the device: out of memory");
   } catch (const std::exception& error) {
-    return absl::NotFoundError(absl::StrCat("no Vulkan: ", error.what()));
+    return absl::InternalError(absl::StrCat("opening the device: ", error.what()));
   }
 }
 

@@ -11,9 +11,9 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
-#include <utility>
 
 #include "isofield/v1/mesh_service.pb.h"
+#include "isofield/v1/operator_service.pb.h"
 #include "isofield/v1/scene.pb.h"
 
 namespace isofield::rpc {
@@ -37,7 +37,12 @@ bool is_of_messages(absl::string_view method) {
   return !absl::EndsWith(method, "/Evaluate") && !absl::EndsWith(method, "/EvaluateStream");
 }
 
-// Notes which scene a request is about, or else its field "name", and how many points or rays it asks for.
+// Tells whether the field "name" of a request is the name of an operator. In all others it names a scene.
+bool names_operator(const Message& request) {
+  return request.GetDescriptor()->file() == v1::GetOperatorRequest::descriptor()->file();
+}
+
+// Notes which scene or operator a request is about, and how many points or rays it asks for.
 void note_request(const Message& request, CallNotes& notes) {
   const google::protobuf::Reflection& reflection = *request.GetReflection();
   std::vector<const FieldDescriptor*> fields;
@@ -45,7 +50,8 @@ void note_request(const Message& request, CallNotes& notes) {
   for (const FieldDescriptor* field : fields) {
     const std::string& name = field->name();
     if (name == "name" && field->type() == FieldDescriptor::TYPE_STRING) {
-      notes.set_subject(reflection.GetString(request, field));
+      const std::string subject = reflection.GetString(request, field);
+      names_operator(request) ? notes.set_operator(subject) : notes.set_scene(subject);
     } else if (name == "counts" && field->cpp_type() == FieldDescriptor::CPPTYPE_UINT64) {
       std::uint64_t points = 1;
       for (int i = 0; i < reflection.FieldSize(request, field); ++i) {
@@ -55,7 +61,7 @@ void note_request(const Message& request, CallNotes& notes) {
     } else if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE || field->is_repeated()) {
       continue;
     } else if (field->message_type() == v1::SceneRef::descriptor()) {
-      notes.set_subject(static_cast<const v1::SceneRef&>(reflection.GetMessage(request, field)));
+      notes.set_scene(static_cast<const v1::SceneRef&>(reflection.GetMessage(request, field)));
     } else if (field->message_type() == v1::MeshRequest::descriptor()) {
       note_request(reflection.GetMessage(request, field), notes);
     } else if (field->message_type() == v1::Tensor::descriptor() && name != "directions") {
@@ -82,16 +88,16 @@ std::string outcome_text(const grpc::Status& status) {
 
 }  // namespace
 
-void CallNotes::set_subject(const v1::SceneRef& scene) {
-  set_subject(scene.has_inline_() ? "(inline)" : scene.name());
+void CallNotes::set_scene(const v1::SceneRef& scene) {
+  set_scene(scene.has_inline_() ? "(inline)" : scene.name());
 }
 
-void CallNotes::set_subject(std::string name) {
+void CallNotes::set_subject(const char* what, std::string name) {
   const base::MutexLock lock(mutex_);
   // A call has one line in the log, whatever characters its client sends.
   for (char& c : name) c = c > ' ' && c < 0x7f ? c : '?';
   if (name.size() > kLongestName) name.replace(kLongestName, std::string::npos, "...");
-  subject_ = std::move(name);
+  subject_ = name.empty() ? "" : absl::StrCat(what, "=", name);
 }
 
 void CallNotes::add_work(const char* unit, std::uint64_t count) {
@@ -102,7 +108,7 @@ void CallNotes::add_work(const char* unit, std::uint64_t count) {
 std::string CallNotes::text() const {
   const base::MutexLock lock(mutex_);
   std::string text;
-  if (!subject_.empty()) absl::StrAppend(&text, " scene=", subject_);
+  if (!subject_.empty()) absl::StrAppend(&text, " ", subject_);
   for (const auto& [unit, count] : work_) absl::StrAppend(&text, " ", unit, "=", count);
   return text;
 }

@@ -22,19 +22,23 @@ class CallNotes {
  public:
   engine::RequestTimes& times() { return times_; }
 
-  // Sets the scene or the operator that the call is about.
-  void set_subject(const v1::SceneRef& scene);
-  void set_subject(std::string name);
+  // Sets the scene that the call is about.
+  void set_scene(const v1::SceneRef& scene);
+  void set_scene(const std::string& name) { set_subject("scene", name); }
+  // Sets the operator that the call is about.
+  void set_operator(const std::string& name) { set_subject("operator", name); }
   // Adds `count` to the work in a unit, which is "points", "rays" or "cells".
   void add_work(const char* unit, std::uint64_t count);
 
-  // Returns the notes in the form " scene=ball points=64".
+  // Returns the notes in the form " scene=ball points=64" or " operator=fold points=64".
   std::string text() const;
 
  private:
+  void set_subject(const char* what, std::string name);
+
   engine::RequestTimes times_;
   mutable base::Mutex mutex_;
-  std::string subject_ ABSL_GUARDED_BY(mutex_);
+  std::string subject_ ABSL_GUARDED_BY(mutex_);  // in the form "scene=ball"
   std::map<std::string, std::uint64_t> work_ ABSL_GUARDED_BY(mutex_);
 };
 

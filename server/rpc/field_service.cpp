@@ -23,7 +23,7 @@ template <class Request>
 absl::StatusOr<engine::PointBatch> FieldService::batch_of(const grpc::ServerContext& context,
                                                           const Request& request) const {
   CallNotes* const notes = log_.notes_of(context);
-  if (notes) notes->set_subject(request.scene());
+  if (notes) notes->set_scene(request.scene());
   ISOFIELD_ASSIGN_OR_RETURN(engine::PointBatch batch,
                             read_batch(context, scenes_, request.scene(), request.quantity(), request.priority()));
   if (notes) batch.times = &notes->times();

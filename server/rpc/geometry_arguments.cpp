@@ -61,7 +61,8 @@ absl::StatusOr<std::optional<blobtree::Box>> read_bounds(const Numbers& low, con
 absl::StatusOr<double> read_iso(std::optional<double> iso, operators::Law law) {
   if (law == operators::Law::kSigned) {
     if (!is_coordinate(iso.value_or(0))) {
-      return absl::InvalidArgumentError(absl::StrCat("iso = ", *iso, ": expected a finite value"));
+      return absl::InvalidArgumentError(
+          absl::StrCat("iso = ", *iso, ": expected a finite number of magnitude at most ", base::kMaxCoordinate));
     }
     return iso.value_or(0);
   }
@@ -80,8 +81,8 @@ absl::Status check_bounded(const blobtree::Tape& tape, const std::optional<blobt
   }
   if (tape.law == operators::Law::kSigned && iso > 0) {
     return absl::InvalidArgumentError(absl::StrCat("iso = ", iso,
-                                                   ": expected a finite value; above 0, where a signed field has no "
-                                                   "bounds of its own, with stated bounds"));
+                                                   ": expected a value of at most 0, or stated bounds, since a signed "
+                                                   "field has no bounds of its own above 0"));
   }
   return absl::OkStatus();
 }

@@ -130,13 +130,13 @@ TEST_F(CliTest, OutputsOfAnotherKindAreRefusedBeforeWork) {
   const std::pair<std::string, const char*> commands[] = {
       {"import " + path("a.swc") + " -o " + path("a.glb"), "`isofield mesh` writes meshes"},
       {"import " + path("a.swc") + " -o " + path("a.PNG"), "`isofield render`"},
-      {"import " + path("a.swc") + " -o " + path("a.csv"), "write tables"},
+      {"import " + path("a.swc") + " -o " + path("a.csv"), "`operator eval`"},
       {"import " + path("a.swc") + " -o " + path("a.xlsx"), "no command writes such files"},
       {"eval " + ball + points + " -o " + path("a.glb"), "expected .csv or .npy"},
       {"eval " + ball + points + " -o " + path("a.json"), "expected .csv or .npy"},
       {"project " + ball + points + " -o " + path("a.png"), "expected .csv or .npy or .json"},
       {"slice " + ball + " --origin 0,0,0 --spacing 1 --counts 2,2 -o " + path("a.stl"), "`isofield mesh`"},
-      {"operator eval max" + points + " -o " + path("a.npy"), "expected .csv"},
+      {"operator eval max" + points + " -o " + path("a.npy"), "expected .csv. `isofield eval`"},
   };
   for (const auto& [command, part] : commands) {
     EXPECT_EQ(run(command, "1 2 3\n"), 2) << command;
@@ -254,6 +254,9 @@ TEST_F(CliTest, ExitCodesTellServersFilesAndUsageApart) {
   write_file(path("bad.json"), "{\"nodes\": [{]}");
   EXPECT_EQ(run("put " + path("bad.json")), 4);
   EXPECT_TRUE(absl::StrContains(err_, "bad.json:1:")) << err_;
+  for (const char* const name : {"none.json", "none.PB", "none.JSON.GZ", "none.SWC.GZ"}) {
+    EXPECT_EQ(run("eval " + path(name) + " --points -", "0 0 0\n"), 4) << name << ": " << err_;
+  }
   write_file(path("empty.json"), "{}");
   EXPECT_EQ(run("put " + path("empty.json")), 1);
   EXPECT_EQ(run(""), 2);

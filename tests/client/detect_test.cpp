@@ -54,6 +54,10 @@ TEST(Detect, TheEndingDecidesWhereContentDoesNot) {
   EXPECT_EQ(*detect_kind("rubbish\n", "a.txt"), FileKind::kPoints);
   EXPECT_EQ(*detect_kind("rubbish\n", "a.json"), FileKind::kSceneJson);
   EXPECT_EQ(*detect_kind("", "a.pb"), FileKind::kSceneMessage);
+  for (const char* const name : {"a.pb.gz", "a.PB.GZ", "a.pb.Gz"}) {
+    EXPECT_EQ(*detect_kind("", name), FileKind::kSceneMessage) << name;
+  }
+  EXPECT_EQ(*detect_kind("rubbish\n", "a.JSON.GZ"), FileKind::kSceneJson);
 }
 
 TEST(Detect, OddSwcFilesAreKnown) {

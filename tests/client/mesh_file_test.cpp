@@ -21,12 +21,13 @@
 namespace isofield {
 namespace {
 
-std::string written(const Mesh& mesh, MeshFormat format, const FileUnit& unit = {}) {
+std::string written(const Mesh& mesh, MeshFormat format, const FileUnit& unit = {},
+                    const std::string& name = "a \"torus\"") {
   const TemporaryDirectory directory;
   const std::string path = directory.path("mesh");
   auto file = OutputFile::create(path);
   EXPECT_TRUE(file.ok()) << file.status();
-  EXPECT_TRUE(write_mesh(mesh, format, "a \"torus\"", **file, CreaseShading::kSharp, unit).ok());
+  EXPECT_TRUE(write_mesh(mesh, format, name, **file, CreaseShading::kSharp, unit).ok());
   EXPECT_TRUE((*file)->commit().ok());
   return *read_file(path);
 }
@@ -228,6 +229,18 @@ TEST(MeshFile, CreasesCanStaySmooth) {
   const std::string obj = *read_file(directory.path("mesh"));
   EXPECT_EQ(std::vector<std::string>(absl::StrSplit(obj, "\nvn ")).size(), mesh.vertex_count() + 1);
   EXPECT_TRUE(absl::StrContains(written(mesh, MeshFormat::kPly), "element vertex 26\n"));
+}
+
+// JSON is UTF-8, but a file's name may have any bytes.
+TEST(MeshFile, AGlbHasItsNameInUtf8) {
+  const std::string glb = written(torus_mesh(4, 3, 2.0f, 1.0f), MeshFormat::kGlb, {}, "caf\xe9 \xc3\xa9\n");
+  tinygltf::Model model;
+  std::string error, warning;
+  ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(
+      &model, &error, &warning, reinterpret_cast<const unsigned char*>(glb.data()), static_cast<unsigned>(glb.size())))
+      << error;
+  EXPECT_EQ(model.meshes.at(0).name, "caf\xef\xbf\xbd \xc3\xa9\n");
+  EXPECT_EQ(model.nodes.at(0).name, model.meshes[0].name);
 }
 
 TEST(MeshFile, AnEmptyMeshIsAValidGlb) {

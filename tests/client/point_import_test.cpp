@@ -62,7 +62,7 @@ TEST(PointImport, FurtherColumnsAreMentioned) {
   const auto four = import("0 0 0 2\n4 0 0 1\n");
   EXPECT_EQ(soft_radii(four), (Radii{0.5, 0.5}));
   EXPECT_FALSE(four->report.damaged());
-  EXPECT_TRUE(absl::StrContains(four->report.text(), "4 columns, and only the first three are read; --radius-column"))
+  EXPECT_TRUE(absl::StrContains(four->report.text(), "4 columns, and only the first three are read; the import option"))
       << four->report.text();
   const auto seven = import("0.5 0 0 2 3 4 5\n");
   EXPECT_TRUE(absl::StrContains(seven->report.text(), "is this an SWC file")) << seven->report.text();

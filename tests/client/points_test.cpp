@@ -178,6 +178,20 @@ TEST_F(PointsTest, TablesAreReadAgainByTheirNames) {
   }
 }
 
+TEST_F(PointsTest, ATableWithoutRowsHasTheFieldsOfOneWithRows) {
+  const auto header = [&](const Floats& distances, const std::vector<std::string>& nodes) {
+    Table table;
+    table.add("distance", std::span<const float>(distances));
+    table.add_texts("node", nodes);
+    auto file = OutputFile::create(directory_.path("t.npy"));
+    EXPECT_TRUE(table.write("t.npy", **file).ok() && (*file)->commit().ok());
+    return read_file(directory_.path("t.npy"))->substr(10, 70);
+  };
+  const std::string description = "{'descr': [('distance', '<f4')], 'fortran_order': False, 'shape': (";
+  EXPECT_TRUE(absl::StartsWith(header({}, {}), absl::StrCat(description, "0,"))) << header({}, {});
+  EXPECT_TRUE(absl::StartsWith(header({1}, {"ball"}), absl::StrCat(description, "1,"))) << header({1}, {"ball"});
+}
+
 TEST_F(PointsTest, ResultsAsText) {
   const std::string path = directory_.path("out.csv");
   auto file = OutputFile::create(path);

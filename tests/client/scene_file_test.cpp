@@ -111,6 +111,10 @@ TEST(SceneFile, ReadsFilesOfBothForms) {
   EXPECT_EQ(json->SerializeAsString(), scene.SerializeAsString());
   const auto binary = read_scene_file(write_file(directory.path("a.pb"), scene.SerializeAsString()));
   EXPECT_EQ(binary->SerializeAsString(), scene.SerializeAsString());
+  for (const char* const name : {"a.PB", "a.pb.gz", "a.PB.GZ"}) {
+    const auto named = read_scene_file(write_file(directory.path(name), scene.SerializeAsString()));
+    EXPECT_TRUE(named.ok()) << named.status();
+  }
   EXPECT_FALSE(read_scene_file(write_file(directory.path("b.pb"), "\xff\xff\xff rubbish")).ok());
   EXPECT_EQ(read_scene_file(directory.path("none.json")).status().code(), absl::StatusCode::kNotFound);
   EXPECT_FALSE(read_scene_file(directory.path("")).ok());

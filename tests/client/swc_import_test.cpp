@@ -113,12 +113,12 @@ TEST(SwcImport, MendsRadiiFromTheParentOrTheOption) {
   const auto floored = import_swc_text(text, {.min_radius = 0.5});
   EXPECT_EQ(floored.scene.nodes(0).segment().radius_a(), 0.5);
   EXPECT_EQ(floored.scene.nodes(3).segment().radius_b(), 0.5);
-  EXPECT_EQ(count_of(floored.report, "gets --min-radius"), 3u);
-  EXPECT_EQ(count_of(floored.report, "thinner than --min-radius"), 1u);
+  EXPECT_EQ(count_of(floored.report, "gets the import option min_radius"), 3u);
+  EXPECT_EQ(count_of(floored.report, "thinner than the import option min_radius"), 1u);
   const auto none = import_text("1 0 0 0 0 0 -1\n", ImportFormat::kSwc, {}, "test.swc");
   EXPECT_EQ(none.status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_TRUE(absl::StrContains(none.status().message(), "line 1: 1 0 0 0 0 0 -1")) << none.status();
-  EXPECT_TRUE(absl::StrContains(none.status().message(), "--min-radius")) << none.status();
+  EXPECT_TRUE(absl::StrContains(none.status().message(), "import option min_radius")) << none.status();
 }
 
 TEST(SwcImport, ProcessesOfAContourMeetItsSurface) {
@@ -234,7 +234,7 @@ TEST(SwcImport, HemibrainNeuron) {
   EXPECT_EQ(imported->report.read, 4465u);
   // The pieces are 4,464 edges and the soma, less three edges within it.
   EXPECT_EQ(imported->report.pieces, 4462u);
-  EXPECT_EQ(count_of(imported->report, "is the unit nm? --unit nm"), 1u);
+  EXPECT_EQ(count_of(imported->report, "is the unit nm? The import option unit"), 1u);
   EXPECT_FALSE(imported->report.damaged());
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <barrier>
+#include <iterator>
 #include <spirv-tools/libspirv.hpp>
 #include <thread>
 #include <vector>
@@ -104,6 +105,23 @@ TEST(KernelCache, OneKernelThatSeveralThreadsWantIsCompiledOnce) {
   EXPECT_TRUE(got[0]);
   for (const gpu::SharedPipeline& kernel : got) EXPECT_EQ(kernel, got[0]);
   EXPECT_EQ(kernels.counts().compiled, 1u);
+  EXPECT_EQ(kernels.counts().held, 1u);
+}
+
+// Kernels that are compiled at the same time cannot be freed, so that they can be more than the most for a while.
+TEST(KernelCache, IsBackAtTheMostAfterManyAtOnce) {
+  engine::KernelCache kernels(device(), {.most = 1, .specialised = nullptr});
+  const std::array<const shaders::Spirv*, 3> wanted = {&shaders::kMeshShare, &shaders::kMeshNear, &shaders::kMeshList};
+  std::barrier start(std::ssize(wanted));
+  std::vector<std::thread> threads;
+  for (const shaders::Spirv* const shader : wanted) {
+    threads.emplace_back([&, shader] {
+      start.arrive_and_wait();
+      EXPECT_TRUE(kernels.get(*shader).ok());
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_TRUE(kernels.get(shaders::kMeshConnect).ok());
   EXPECT_EQ(kernels.counts().held, 1u);
 }
 

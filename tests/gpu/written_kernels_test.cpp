@@ -209,6 +209,33 @@ TEST(WrittenKernels, NeverOfLongTapesNorWhereTheyAreOff) {
   EXPECT_EQ(written.counts().kernels + written.counts().failures, 0u);
 }
 
+TEST(WrittenKernels, AreNeverMoreThanTheMost) {
+  constexpr std::uint64_t kMost = 2;
+  WrittenKernels written(device(), {.hot_points = 1, .most_kernels = kMost});
+  std::vector<engine::SceneLease> scenes;
+  std::string nodes;
+  for (int i = 0; i < 5; ++i) {
+    absl::StrAppend(&nodes, i > 0 ? "," : "", R"({"sphere": {"center": [)", i,
+                    R"(, 0, 0], "radius": 0.6, "range": 0.5}})");
+    std::string children;
+    for (int child = 0; child <= i; ++child) absl::StrAppend(&children, child > 0 ? "," : "", "\"#", child, "\"");
+    scenes.push_back(resident(
+        test_support::scene_of_nodes(absl::StrCat("[", nodes, R"(, {"sum": {"children": [)", children, "]}}]"))));
+  }
+  // All of them become hot faster than one kernel is made.
+  for (const engine::SceneLease& scene : scenes) {
+    (void)written.find(*scene, true, 1);
+    EXPECT_LE(written.counts().held, kMost);
+  }
+  written.wait();
+  EXPECT_EQ(written.counts().held, kMost);
+  // A structure that found no place gets its kernel in the place of another one.
+  for (const engine::SceneLease& scene : scenes) {
+    EXPECT_TRUE(make_hot(written, *scene));
+    EXPECT_EQ(written.counts().held, kMost);
+  }
+}
+
 TEST(WrittenKernels, AreKeptOnDisk) {
   const test_support::TemporaryFolder folder;
   const engine::SceneLease scene = resident(two_spheres(0.5));

@@ -45,6 +45,11 @@ TEST(CallLog, HasALineForEachCallOfTheDebugLevel) {
     ASSERT_TRUE(ok(peer.evaluate_grid(grid, &out)));
     EXPECT_EQ(peer.evaluate(named("none\nof\x1b[31mthese"), points_around(ball, 0, 1), false, &out).error_code(),
               grpc::StatusCode::NOT_FOUND);
+    v1::GetOperatorRequest request;
+    request.set_name("gradient");
+    v1::GetOperatorResponse response;
+    grpc::ClientContext context;
+    EXPECT_TRUE(ok(peer.operators().GetOperator(&context, request, &response)));
   }
   daemon.stop();
   const std::string log = daemon.process().errors();
@@ -53,6 +58,7 @@ TEST(CallLog, HasALineForEachCallOfTheDebugLevel) {
   expect_calls(log, R"(FieldService/Evaluate scene=\(inline\) points=5)" + kTimes + "OK\n");
   expect_calls(log, "FieldService/EvaluateStream scene=ball points=16" + kTimes + "OK\n");
   expect_calls(log, "MeshService/Mesh scene=ball cells=[1-9]\\d*" + kTimes + "OK\n");
+  expect_calls(log, "OperatorService/GetOperator operator=gradient" + kTimes + "OK\n");
   expect_calls(log, "FieldService/EvaluateGrid scene=ball points=60" + kTimes + "OK\n");
   // A call has one line, whatever characters the name holds.
   expect_calls(log, R"(FieldService/Evaluate scene=none\?of\?\[31mthese)" + kTimes + "NOT_FOUND: [^\n]*\n");

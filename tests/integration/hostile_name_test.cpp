@@ -110,7 +110,7 @@ TEST_F(HostileName, OfANodeIsCutWhereItIsTooLong) {
   v1::Scene scene = Ball().scene();
   scene.mutable_nodes(0)->set_name(std::string(100 << 10, 'n'));
   expect_shown(peer.put("named", scene), StatusCode::INVALID_ARGUMENT, kCut);
-  expect_refused(peer.put("named", scene), StatusCode::INVALID_ARGUMENT, {"nodes[0]", "at most 256 characters"});
+  expect_refused(peer.put("named", scene), StatusCode::INVALID_ARGUMENT, {"nodes[0]", "at most 256 bytes"});
   scene = Ball().scene();
   scene.set_unit(kLong);
   expect_shown(peer.put("named", scene), StatusCode::INVALID_ARGUMENT, absl::StrCat("unit = ", kCut));

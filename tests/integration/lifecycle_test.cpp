@@ -242,7 +242,7 @@ TEST(Lifecycle, AConfigurationFileIsRefusedByLineAndKey) {
       {"validation = \"true\"\n", {":1: validation = \"true\": expected true or false"}},
       {"device = 5\n", {":1: device = 5: expected a text in quotes"}},
       {"log-level = \"loud\"\n", {":1: log-level = \"loud\"", "debug"}},
-      {"max-nodes = 5\nmax-scenes = 5\nmax-nodes = 6\n", {":3: max-nodes stands there twice", "line 1"}},
+      {"max-nodes = 5\nmax-scenes = 5\nmax-nodes = 6\n", {":3: max-nodes is set twice in this file: line 1 sets it"}},
       {"max-nodes\n", {":1: max-nodes: expected KEY = VALUE"}},
       {"max-nodes =\n", {":1: max-nodes = : expected a text in quotes"}},
       {"= 5\n", {":1: = 5: expected KEY = VALUE"}},

@@ -206,6 +206,21 @@ TEST(SceneReader, EmptyScenesAreRefused) {
   expect_refused({}, {"nodes is missing", "at least 1 node"});
 }
 
+TEST(SceneReader, NamesAndTheUnitHaveAtMost256Bytes) {
+  // These letters take two bytes each.
+  std::string longest;
+  for (int i = 0; i < 128; ++i) longest += "\xc3\xa9";
+  v1::Scene scene = scene_of_nodes(kBall);
+  scene.mutable_nodes(0)->set_name(longest);
+  scene.set_unit(longest);
+  EXPECT_TRUE(read_scene(scene).ok()) << read_scene(scene).status();
+  scene.set_unit(longest + "m");
+  expect_refused(scene, {"unit = ", "at most 256 bytes"});
+  scene.clear_unit();
+  scene.mutable_nodes(0)->set_name(longest + "m");
+  expect_refused(scene, {"nodes[0]", ".name = ", "at most 256 bytes"});
+}
+
 TEST(SceneReader, UnknownRootsAreRefused) {
   expect_refused(scene_message("{\"nodes\": [" + kBall + "], \"root\": \"bell\"}"), {"root = 'bell'", "expected"});
   expect_refused(scene_message("{\"nodes\": [" + kBall + "], \"root\": \"#1\"}"), {"root = '#1'", "expected"});
@@ -236,7 +251,16 @@ TEST(SceneReader, TooManyDifferentProfilesAreRefused) {
       {"gradient": {"children": ["#1"], "silhouette": {"kind": "BULGE", "k": 0.2}}},
       {"gradient": {"children": ["#2"], "silhouette": {"kind": "BULGE", "k": 0.2}}})";
   EXPECT_TRUE(read_scene(scene_of_nodes(bulges), {.max_profiles = 3}).ok());
-  expect_refused(scene_of_nodes(bulges), {"nodes[2].opening", "more than 2"}, {.max_profiles = 2});
+  // The first operator has the default opening, which the others share.
+  expect_refused(scene_of_nodes(bulges), {"nodes[1].silhouette: more than 1 different"}, {.max_profiles = 1});
+  expect_refused(scene_of_nodes(bulges), {"nodes[2].silhouette: more than 2 different"}, {.max_profiles = 2});
+  const std::string openings = kBall + R"(, {"gradient": {"children": ["#0"]}},
+      {"gradient": {"children": ["#1"], "opening": {"preset": "ORGANIC"}}})";
+  expect_refused(scene_of_nodes(openings), {"nodes[2].opening: more than 2 different"}, {.max_profiles = 2});
+  const std::string curves = R"({"sphere": {"radius": 1, "law": "SIGNED"}},
+      {"functional": {"children": ["#0"], "x": [0, 1], "h": [0.5, 0]}},
+      {"functional": {"children": ["#1"], "x": [0, 1], "h": [0.25, 0]}})";
+  expect_refused(scene_of_nodes(curves), {"nodes[2].h: more than 1 different"}, {.max_profiles = 1});
 }
 
 TEST(SceneReader, ReferencesGoByNameAndPlaceInAnyOrder) {

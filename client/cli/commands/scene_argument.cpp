@@ -3,13 +3,13 @@
 #include <absl/strings/ascii.h>
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
-#include <absl/strings/strip.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 
 #include "exit_codes.h"
+#include "gzip.h"
 #include "isofield/client.h"
 
 namespace isofield {
@@ -29,15 +29,15 @@ absl::StatusOr<v1::SceneRef> scene_argument(const std::string& argument, const I
     return inline_scene(std::move(loaded->scene));
   }
   // No name in the catalog ends like this by accident.
-  const absl::string_view name = absl::StripSuffix(argument, ".gz");
-  if (import_format(argument) || absl::EndsWith(name, ".json") || absl::EndsWith(name, ".pb")) {
+  const absl::string_view name = unpacked_name(argument);
+  if (import_format(argument) || absl::EndsWithIgnoreCase(name, ".json") || absl::EndsWithIgnoreCase(name, ".pb")) {
     return file_error(absl::NotFoundError(absl::StrCat(argument, ": no such file")));
   }
   return scene_by_name(argument);
 }
 
 std::string stem(const std::string& path) {
-  return std::filesystem::path(std::string(absl::StripSuffix(path, ".gz"))).stem().string();
+  return std::filesystem::path(std::string(unpacked_name(path))).stem().string();
 }
 
 std::string name_for(const std::string& path) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mesh_files/mesh_file.h"
+#include "utf8.h"
 
 // This file writes the binary form of glTF 2.0: a header, a chunk of JSON and a chunk of arrays. It does not use
 // tinygltf, because here the arrays go to the file straight from the mesh; tinygltf makes two copies of them (measured
@@ -19,9 +20,10 @@ constexpr std::uint64_t kMaxBytes = std::numeric_limits<std::uint32_t>::max();
 // These constants come from the specification.
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
+// Returns the text as a JSON string. The name comes from a file's, whose bytes need not be UTF-8.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
-  for (const char c : text) {
+  for (const char c : valid_utf8(text)) {
     if (c == '"' || c == '\\') out.push_back('\\');
     if (static_cast<unsigned char>(c) < 0x20) {
       absl::StrAppendFormat(&out, "\\u%04x", c);

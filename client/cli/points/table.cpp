@@ -56,7 +56,7 @@ absl::Status Table::write_csv(OutputFile& file) const {
   for (const Column& c : columns_) text += c.name + (&c == &columns_.back() ? "\n" : ",");
   for (std::size_t row = 0; row < rows(); ++row) {
     for (const Column& c : columns_) {
-      c.texts.empty() ? append_number(c.numbers[row], text) : append_cell(c.texts[row], text);
+      c.holds_texts ? append_cell(c.texts[row], text) : append_number(c.numbers[row], text);
       text.push_back(&c == &columns_.back() ? '\n' : ',');
     }
     if (auto status = file.write(text); !status.ok()) return status;
@@ -68,7 +68,7 @@ absl::Status Table::write_csv(OutputFile& file) const {
 absl::Status Table::write_npy(OutputFile& file) const {
   std::vector<const Column*> numbers;
   for (const Column& c : columns_) {
-    if (c.texts.empty()) numbers.push_back(&c);
+    if (!c.holds_texts) numbers.push_back(&c);
   }
   std::vector<std::string> names;
   for (const Column* c : numbers) names.push_back(c->name);
@@ -88,7 +88,7 @@ absl::Status Table::write_json(OutputFile& file) const {
     text += ": [";
     for (std::size_t row = 0; row < rows(); ++row) {
       if (row > 0) text += ", ";
-      if (!c.texts.empty()) {
+      if (c.holds_texts) {
         append_json(c.texts[row], text);
       } else if (std::isfinite(c.numbers[row])) {
         append_number(c.numbers[row], text);

@@ -18,7 +18,7 @@ class Table {
   // Adds a column of every `stride`-th number from the first, rounded to float32.
   template <class T>
   void add(const std::string& name, std::span<const T> numbers, std::size_t stride = 1) {
-    std::vector<float>& column = columns_.emplace_back(Column{name, {}, {}}).numbers;
+    std::vector<float>& column = columns_.emplace_back(Column{name, false, {}, {}}).numbers;
     for (std::size_t i = 0; i < numbers.size(); i += stride) column.push_back(static_cast<float>(numbers[i]));
   }
   // Adds three columns from vectors x, y, z that follow each other.
@@ -28,7 +28,7 @@ class Table {
     }
   }
   void add_texts(const std::string& name, std::vector<std::string> texts) {
-    columns_.push_back({name, {}, std::move(texts)});
+    columns_.push_back({name, true, {}, std::move(texts)});
   }
   std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
 
@@ -42,10 +42,11 @@ class Table {
  private:
   struct Column {
     std::string name;
+    bool holds_texts;
     std::vector<float> numbers;
     std::vector<std::string> texts;  // instead of numbers
 
-    std::size_t size() const { return numbers.empty() ? texts.size() : numbers.size(); }
+    std::size_t size() const { return holds_texts ? texts.size() : numbers.size(); }
   };
   absl::Status write_csv(OutputFile& file) const;
   absl::Status write_npy(OutputFile& file) const;

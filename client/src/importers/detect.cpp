@@ -4,12 +4,12 @@
 #include <absl/strings/ascii.h>
 #include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
-#include <absl/strings/strip.h>
 
 #include <algorithm>
 #include <cstring>
 #include <vector>
 
+#include "gzip.h"
 #include "importers/foreign_files.h"
 #include "importers/text.h"
 #include "json_text.h"
@@ -198,8 +198,7 @@ FileKind kind_of(ImportFormat format) {
 }  // namespace
 
 absl::StatusOr<FileKind> detect_kind(const std::string& content, const std::string& path) {
-  // The name of a packed file is that of the file in it, with .gz after it.
-  const std::string name(absl::StripSuffix(path, ".gz"));
+  const std::string name(unpacked_name(path));
   if (is_json(content)) return is_mmjson(content) ? FileKind::kMmcif : FileKind::kSceneJson;
   const bool is_named_message = absl::EndsWithIgnoreCase(name, ".pb");
   const absl::string_view start = absl::string_view(content).substr(0, kLookedAt);

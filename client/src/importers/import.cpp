@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "gzip.h"
 #include "importers/detect.h"
 #include "importers/formats.h"
 #include "importers/import_options.h"
@@ -38,9 +39,7 @@ std::optional<ImportFormat> format_of(FileKind kind) {
 }  // namespace
 
 std::optional<ImportFormat> import_format(const std::string& path) {
-  // A packed file has the format of the file in it.
-  absl::string_view name = path;
-  if (absl::EndsWithIgnoreCase(name, ".gz")) name.remove_suffix(3);
+  const absl::string_view name = unpacked_name(path);
   constexpr std::array<std::pair<const char*, ImportFormat>, 8> kExtensions = {{{".swc", ImportFormat::kSwc},
                                                                                 {".eswc", ImportFormat::kSwc},
                                                                                 {".pdb", ImportFormat::kPdb},

@@ -88,7 +88,7 @@ class PointImport {
            absl::StrCat("note: the lines have ", head_.columns(), " columns, and only the first three are read; ",
                         swc_row(row) || head_.columns() == 7
                             ? "is this an SWC file (id type x y z radius parent)? Then name it .swc"
-                            : "--radius-column states which one holds radii"),
+                            : "the import option radius_column states which one holds radii"),
            number, row, false);
     }
     if (const auto distance = find_column(head_.names(), "distance"); distance && distance != *radius) {

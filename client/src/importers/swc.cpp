@@ -37,12 +37,12 @@ void note_size(const std::vector<SwcSample>& samples, ImportReport& report) {
   if (widest.radius > kLargest) {
     note(report,
          absl::StrCat("the largest radius, ", widest.radius,
-                      ", is implausible in micrometres: is the unit nm? --unit nm states it"),
+                      ", is implausible in micrometres: is the unit nm? The import option unit states it"),
          widest.line_number, widest.line, false);
   } else if (widest.radius > 0 && widest.radius < kSmallest) {
     note(report,
          absl::StrCat("the largest radius, ", widest.radius,
-                      ", is implausible in micrometres: is the unit mm? --unit mm states it"),
+                      ", is implausible in micrometres: is the unit mm? The import option unit states it"),
          widest.line_number, widest.line, false);
   }
 }

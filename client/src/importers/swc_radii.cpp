@@ -61,11 +61,11 @@ absl::Status mend_radii(const std::vector<bool>& outlines, const ImportOptions& 
     if (sample.radius > 0) {
       if (sample.radius < options.min_radius.value_or(0)) {
         sample.radius = *options.min_radius;
-        remark("sample thinner than --min-radius: it gets that radius", false);
+        remark("sample thinner than the import option min_radius: it gets that radius", false);
       }
     } else if (options.min_radius) {
       sample.radius = *options.min_radius;
-      remark(absl::StrCat(kNone, "it gets --min-radius"), true);
+      remark(absl::StrCat(kNone, "it gets the import option min_radius"), true);
     } else if (parent != kNoParent && samples[parent].radius > 0) {
       sample.radius = samples[parent].radius;
       remark(absl::StrCat(kNone, "it gets its parent's"), true);
@@ -74,11 +74,14 @@ absl::Status mend_radii(const std::vector<bool>& outlines, const ImportOptions& 
       remark(absl::StrCat(kNone, "no parent has one, it gets that of its nearest descendant that has one"), true);
     } else if (is_lost[i]) {
       is_dropped[i] = true;
-      remark("sample dropped: its tree has lost its parent and has no radius > 0; --min-radius gives it one", true);
+      remark(
+          "sample dropped: its tree has lost its parent and has no radius > 0; the import option min_radius gives it "
+          "one",
+          true);
     } else {
       return absl::InvalidArgumentError(absl::StrCat(
           quote_line(sample.line_number, sample.line), ": neither this first sample of a tree nor one that follows it ",
-          "has a radius > 0; expected one, or a radius to use in its place (--min-radius)"));
+          "has a radius > 0; expected one, or a radius to use in its place (import option min_radius)"));
     }
   }
   order.erase(std::remove_if(order.begin(), order.end(), [&](int i) { return is_dropped[i]; }), order.end());

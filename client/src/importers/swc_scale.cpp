@@ -72,12 +72,13 @@ glm::dvec3 read_swc_scale(const std::string& text, bool apply, ImportReport& rep
            apply ? absl::StrCat("the header states SCALE ", values,
                                 ": coordinates are multiplied by it, radii by the geometric mean of the three")
                  : absl::StrCat("the header states SCALE ", values,
-                                ": it is not applied; --apply-scale multiplies the lengths by it"),
+                                ": it is not applied; the import option apply_scale multiplies the lengths by it"),
            lines.number(), line, false);
     }
   }
   if (apply && !stated && !malformed) {
-    note(report, "--apply-scale changes nothing: the header has no line \"# SCALE x y z\"", 1, "", false);
+    note(report, "the import option apply_scale changes nothing: the header has no line \"# SCALE x y z\"", 1, "",
+         false);
   }
   return apply ? stated.value_or(kNone) : kNone;
 }

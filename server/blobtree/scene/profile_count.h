@@ -10,12 +10,19 @@ namespace isofield::blobtree {
 
 class ProfileCount {
  public:
-  void add(const operators::Operator& op) {
-    if (const auto* opening = op.opening()) openings_.insert(*opening);
+  // Counts the tables of an operator. Returns the field of the last one that is new, or null if all are known.
+  const char* add(const operators::Operator& op) {
+    const char* field = nullptr;
+    if (const auto* opening = op.opening(); opening && openings_.insert(*opening).second) field = "opening";
     op.visit([&](const auto& kind) {
-      if constexpr (requires { kind.silhouette; }) silhouettes_.insert(kind.silhouette);
-      if constexpr (requires { kind.h; }) curves_.insert(kind.h);
+      if constexpr (requires { kind.silhouette; }) {
+        if (silhouettes_.insert(kind.silhouette).second) field = "silhouette";
+      }
+      if constexpr (requires { kind.h; }) {
+        if (curves_.insert(kind.h).second) field = "h";
+      }
     });
+    return field;
   }
   std::size_t size() const { return openings_.size() + silhouettes_.size() + curves_.size(); }
 

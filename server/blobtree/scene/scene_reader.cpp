@@ -19,7 +19,7 @@ namespace isofield::blobtree {
 namespace {
 
 // A node's name and the unit have at most this many bytes, because answers repeat them.
-constexpr std::size_t kMaxNameCharacters = 256;
+constexpr std::size_t kMaxNameBytes = 256;
 
 // References holds the names of nodes and resolves references, which are "name" or "#i".
 class References {
@@ -27,10 +27,10 @@ class References {
   absl::Status add(const v1::Node& node, std::uint32_t index, const std::string& path) {
     const std::string& name = node.name();
     if (name.empty()) return absl::OkStatus();
-    if (name[0] == '#' || name.find('.') != std::string::npos || name.size() > kMaxNameCharacters) {
+    if (name[0] == '#' || name.find('.') != std::string::npos || name.size() > kMaxNameBytes) {
       return absl::InvalidArgumentError(absl::StrCat(path, ".name = ", base::quoted(name),
-                                                     ": expected a name of at most ", kMaxNameCharacters,
-                                                     " characters that does not start with '#' and holds no '.'"));
+                                                     ": expected a name of at most ", kMaxNameBytes,
+                                                     " bytes that does not start with '#' and holds no '.'"));
     }
     const auto [place, added] = names_.emplace(name, index);
     if (!added) {
@@ -207,12 +207,13 @@ absl::Status check_profiles(const Scene& scene, const SceneLimits& limits) {
   for (const Node& node : scene.nodes) {
     if (!node.op) continue;
     const operators::Operator& op = *node.op;
-    profiles.add(op);
+    const char* const profile = profiles.add(op);
     if (const operators::VolumeKey key = op.volume_key(); key.size != 0) volumes.insert(key);
-    if (profiles.size() > limits.max_profiles) {
-      return absl::InvalidArgumentError(absl::StrCat(node.path, ".opening: more than ", limits.max_profiles,
-                                                     " different openings and silhouettes in one scene: expected at "
-                                                     "most so many; nodes may share them"));
+    if (profile && profiles.size() > limits.max_profiles) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(node.path, ".", profile, ": more than ", limits.max_profiles,
+                       " different openings, silhouettes and curves in one scene: expected at most so many; nodes may "
+                       "share them"));
     }
     if (volumes.size() > kMaxVolumes) {
       return absl::InvalidArgumentError(absl::StrCat(node.path, ".volume: more than ", kMaxVolumes,
@@ -231,9 +232,9 @@ absl::StatusOr<Scene> read_scene(const v1::Scene& message, const SceneLimits& li
   if (count > limits.max_nodes) {
     return absl::InvalidArgumentError(absl::StrCat("nodes: ", count, " nodes, expected at most ", limits.max_nodes));
   }
-  if (message.unit().size() > kMaxNameCharacters) {
-    return absl::InvalidArgumentError(absl::StrCat("unit = ", base::quoted(message.unit()), ": expected at most ",
-                                                   kMaxNameCharacters, " characters"));
+  if (message.unit().size() > kMaxNameBytes) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("unit = ", base::quoted(message.unit()), ": expected at most ", kMaxNameBytes, " bytes"));
   }
   Scene scene;
   scene.nodes.resize(count);

@@ -107,7 +107,8 @@ absl::StatusOr<gpu::SharedPipeline> KernelCache::get(const shaders::Spirv& shade
   bool compiles = false, is_ready = false;
   {
     const base::MutexLock lock(mutex_);
-    if (kernels_.size() >= most_ && !kernels_.contains(key)) forget_least_used();
+    while (kernels_.size() >= most_ && !kernels_.contains(key) && forget_least_used()) {
+    }
     auto [it, added] = kernels_.try_emplace(key);
     if (added) {
       it->second.kernel = promise.get_future().share();
@@ -146,9 +147,11 @@ KernelCache::Compiled KernelCache::compile(const shaders::Spirv& shader, const K
   return gpu::Pipeline::create(device_, *kernel);
 }
 
-void KernelCache::forget_least_used() {
+bool KernelCache::forget_least_used() {
   const auto oldest = base::least_used(kernels_, [](const Entry& entry) { return entry.is_ready; });
-  if (oldest != kernels_.end()) kernels_.erase(oldest);
+  if (oldest == kernels_.end()) return false;
+  kernels_.erase(oldest);
+  return true;
 }
 
 KernelCache::Counts KernelCache::counts() const {

@@ -41,8 +41,8 @@ struct KernelKind {
 };
 
 struct KernelOptions {
-  // The most kernels that are kept. A kernel takes some 0.25 MB on lavapipe, and the mesh of a scene needs about a
-  // dozen.
+  // The most kernels that are kept; there are more only while they are compiled at the same time. A kernel takes some
+  // 0.25 MB on lavapipe, and the mesh of a scene needs about a dozen.
   std::size_t most = 512;
   // The specialised kernels, which caches of other devices may share. Null: the cache makes its own.
   std::shared_ptr<SpecialisedKernels> specialised;
@@ -79,7 +79,8 @@ class KernelCache {
   };
 
   Compiled compile(const shaders::Spirv& shader, const KernelKind& kind);
-  void forget_least_used() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Returns false if all kernels are being compiled, so that none can be freed.
+  bool forget_least_used() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   gpu::Device& device_;
   const std::size_t most_;

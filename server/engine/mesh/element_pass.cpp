@@ -6,6 +6,7 @@
 
 #include "base/status_macros.h"
 #include "engine/kernels/bindings.h"
+#include "engine/mesh/mesh_lattice.h"
 #include "engine/session.h"
 
 namespace isofield::engine {
@@ -22,15 +23,20 @@ absl::Status sum_up(const PartOnDevice& part, std::span<const MeshStart> counts,
     quads += c[1];
     starts.push_back({static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(quads)});
   }
-  // The largest buffers take 12 bytes a vertex, and 16 a quad (QuadCutter).
-  const std::uint64_t most = part.device.description().max_buffer_bytes;
-  if (12 * vertices <= most && 16 * quads <= most) return absl::OkStatus();
-  return absl::ResourceExhaustedError(absl::StrCat("cell_size = ", part.request.cell_size, " makes ", vertices,
-                                                   " vertices; this device holds ", most / 16,
-                                                   "; ask for a larger cell size, or a part by its bounds"));
+  return check_elements(part.request, vertices, quads, part.device.description().max_buffer_bytes);
 }
 
 }  // namespace
+
+absl::Status check_elements(const MeshRequest& request, std::uint64_t vertices, std::uint64_t quads,
+                            std::uint64_t max_buffer_bytes) {
+  // The largest buffers take 12 bytes a vertex, and 16 a quad (QuadCutter).
+  const std::uint64_t most_vertices = max_buffer_bytes / 12, most_quads = max_buffer_bytes / 16;
+  if (vertices <= most_vertices && quads <= most_quads) return absl::OkStatus();
+  return absl::ResourceExhaustedError(absl::StrCat(stated_size(request), " makes ", vertices, " vertices and ", quads,
+                                                   " quads at once; this device holds ", most_vertices, " and ",
+                                                   most_quads, "; ask for larger cells, or a part by its bounds"));
+}
 
 absl::StatusOr<PartElements> connect_cells(PartOnDevice& part, const PartSamples& samples) {
   ISOFIELD_RETURN_IF_ERROR(part.check(0.6));

@@ -26,6 +26,10 @@ struct PartElements {
   bool has_quads(std::uint32_t brick) const { return starts[brick + 1][1] > starts[brick][1]; }
 };
 
+// Checks that buffers of the device hold so many elements. RESOURCE_EXHAUSTED: they do not.
+absl::Status check_elements(const MeshRequest& request, std::uint64_t vertices, std::uint64_t quads,
+                            std::uint64_t max_buffer_bytes);
+
 // Fills in the cells, and counts the elements of each brick (`starts`). RESOURCE_EXHAUSTED: there are more elements
 // than a buffer of the device holds.
 absl::StatusOr<PartElements> connect_cells(PartOnDevice& part, const PartSamples& samples);

@@ -28,8 +28,7 @@ constexpr double kUsableCells = kMaxCellsPerAxis - 4 - kLatticeAlignment;
 absl::Status refusal(const blobtree::Tape& tape, const MeshRequest& request, bool is_part, std::uint64_t max_bricks,
                      const std::function<bool()>& cancelled) {
   const bool is_along_axis = request.cell_size < least_cell_size(tape, request);
-  const std::string what = request.resolution ? absl::StrCat("resolution = ", *request.resolution)
-                                              : absl::StrCat("cell_size = ", request.cell_size);
+  const std::string what = stated_size(request);
   const std::string limit =
       is_along_axis ? absl::StrCat("the ", kMaxCellsPerAxis, " cells that are admitted along an axis")
                     : absl::StrCat("the ", max_bricks * blobtree::kCellsPerBrick, " cells that are admitted in all");
@@ -49,6 +48,11 @@ absl::Status refusal(const blobtree::Tape& tape, const MeshRequest& request, boo
 }
 
 }  // namespace
+
+std::string stated_size(const MeshRequest& request) {
+  return request.resolution ? absl::StrCat("resolution = ", *request.resolution)
+                            : absl::StrCat("cell_size = ", request.cell_size);
+}
 
 double least_cell_size(const blobtree::Tape& tape, const MeshRequest& request) {
   const Box b = request.bounds.value_or(tape.support);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "blobtree/cull/lattice.h"
@@ -22,6 +23,9 @@ inline constexpr std::uint32_t kMaxCellsPerAxis = 1u << 22;
 inline constexpr std::uint32_t kLatticeAlignment = 32;
 // Returns the lattice of a request. RESOURCE_EXHAUSTED: request.cell_size is below least_cell_size().
 absl::StatusOr<blobtree::Lattice> mesh_lattice(const blobtree::Tape& tape, const MeshRequest& request);
+
+// Returns what the client has stated, as messages of errors name it: "resolution = 64" or "cell_size = 0.1".
+std::string stated_size(const MeshRequest& request);
 
 // Returns the least cell size that is admitted, in model units. It follows from kMaxCellsPerAxis, and from the
 // coordinates that float32 can tell apart.

@@ -16,7 +16,9 @@ struct MeshRequest {
   std::optional<std::uint32_t> resolution;
   // The mesh is cut at these bounds, and closed there within a cell. Without bounds nothing is cut.
   std::optional<blobtree::Box> bounds;
-  double iso = 0.5;  // within ]0, 1[
+  // The value of the field on the surface. For a positive field it is within ]0, 1[ and has no unit. For a signed field
+  // it is a distance in model units, less than 0 inside and of magnitude at most base::kMaxCoordinate.
+  double iso = 0.5;
   bool with_normals = true;
   double tolerance = 1e-3;  // the largest distance of vertices from the surface, as linearised; in cells, > 0
   std::uint64_t max_cells = 1u << 25;

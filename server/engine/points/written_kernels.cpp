@@ -17,8 +17,6 @@ namespace {
 
 // The most structures whose points are counted. Beyond this number, those that have reached no kernel are forgotten.
 constexpr std::size_t kMostStructures = 1024;
-// The most kernels that are held. Before another one is made, the least recently used one is freed.
-constexpr std::uint64_t kMostKernels = 256;
 constexpr int kNiceness = 10;
 
 // The work of an instruction in a tape that is not all light, in light ones: eight spheres took 7 against 120 million
@@ -75,10 +73,10 @@ gpu::SharedPipeline WrittenKernels::find(const ResidentScene& scene, bool with_g
   Entry& entry = entries_[key];
   entry.points += points;
   entry.last_used = ++uses_;
-  if (!entry.is_hot && entry.points >= options_.hot_points) {
-    if (held_ >= kMostKernels) forget_least_used();
+  const bool becomes_hot = !entry.is_hot && entry.points >= options_.hot_points;
+  if (becomes_hot && (counts_.held < options_.most_kernels || forget_least_used())) {
     entry.is_hot = true;
-    ++held_;
+    ++counts_.held;
     wanted_.push_back({std::move(key), scene.shared_from_this(), with_gradient});
     wanted_more_.notify_one();
   }
@@ -90,11 +88,12 @@ void WrittenKernels::forget_cold() {
 }
 
 // A structure that loses its kernel must become hot again to get another.
-void WrittenKernels::forget_least_used() {
+bool WrittenKernels::forget_least_used() {
   const auto oldest = base::least_used(entries_, [](const Entry& entry) { return entry.kernel != nullptr; });
-  if (oldest == entries_.end()) return;
+  if (oldest == entries_.end()) return false;
   entries_.erase(oldest);
-  --held_;
+  --counts_.held;
+  return true;
 }
 
 void WrittenKernels::wait() {
@@ -126,7 +125,7 @@ void WrittenKernels::work() {
       entries_[wanted.key].kernel = *std::move(kernel);
       ++counts_.kernels;
     } else {
-      --held_;
+      --counts_.held;
       ++counts_.failures;
     }
     is_at_work_ = false;

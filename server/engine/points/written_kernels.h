@@ -26,6 +26,9 @@ struct TierTwoOptions {
   bool is_on = true;
   // The number of points that are evaluated with tapes of one structure before it gets a kernel.
   std::uint64_t hot_points = 1u << 20;
+  // The most kernels that are held or wanted, at least 1. Another one then takes the place of the kernel that has not
+  // been used for the longest time; if none is made yet, its structure has no kernel until it is asked for again.
+  std::uint64_t most_kernels = 256;
   // The folder that keeps compiled kernels; if its name is empty, they are not kept.
   std::string folder;
 };
@@ -46,13 +49,14 @@ class WrittenKernels {
   // never waits for a kernel. `points` is how many points are evaluated now; they count towards hot_points.
   gpu::SharedPipeline find(const ResidentScene& scene, bool with_gradient, std::uint64_t points);
 
-  // Waits until every structure that has reached hot_points has its kernel or is known to get none.
+  // Waits until every kernel that is wanted is made or is known to fail.
   void wait();
 
   struct Counts {
     std::uint64_t kernels = 0;    // how many have been made so far
     std::uint64_t from_disk = 0;  // how many of them an earlier process had compiled
     std::uint64_t failures = 0;
+    std::uint64_t held = 0;  // how many exist or are wanted
   };
   Counts counts() const;
 
@@ -76,7 +80,8 @@ class WrittenKernels {
   absl::StatusOr<gpu::SharedPipeline> make(const Wanted& wanted);
   absl::StatusOr<std::vector<std::uint32_t>> spirv_of(const Wanted& wanted);
   void forget_cold() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void forget_least_used() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Returns false if no kernel is made yet that could be freed.
+  bool forget_least_used() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   gpu::Device& device_;
   const TierTwoOptions options_;
@@ -84,8 +89,7 @@ class WrittenKernels {
   mutable base::Mutex mutex_;
   base::Condition wanted_more_, made_one_;
   std::map<Key, Entry> entries_ ABSL_GUARDED_BY(mutex_);
-  std::uint64_t uses_ ABSL_GUARDED_BY(mutex_) = 0, held_ ABSL_GUARDED_BY(mutex_) =
-                                                       0;  // calls of find(); kernels that exist or are wanted
+  std::uint64_t uses_ ABSL_GUARDED_BY(mutex_) = 0;  // calls of find()
   std::deque<Wanted> wanted_ ABSL_GUARDED_BY(mutex_);
   bool is_at_work_ ABSL_GUARDED_BY(mutex_) = false, is_over_ ABSL_GUARDED_BY(mutex_) = false;
   Counts counts_ ABSL_GUARDED_BY(mutex_);
