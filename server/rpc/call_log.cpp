@@ -37,6 +37,11 @@ bool is_of_messages(absl::string_view method) {
   return !absl::EndsWith(method, "/Evaluate") && !absl::EndsWith(method, "/EvaluateStream");
 }
 
+// Tells whether gRPC parses the requests of a method, too. TrackMesh gets the bytes of its requests.
+bool has_parsed_requests(absl::string_view method) {
+  return is_of_messages(method) && !absl::EndsWith(method, "/TrackMesh");
+}
+
 // Tells whether the field "name" of a request is the name of an operator. In all others it names a scene.
 bool names_operator(const Message& request) {
   return request.GetDescriptor()->file() == v1::GetOperatorRequest::descriptor()->file();
@@ -142,7 +147,7 @@ class CallLog::Call final : public grpc::experimental::Interceptor {
       start_ = Clock::now();
       if (is_of_messages(method_)) timed_.emplace(notes_.times());
     }
-    if (is_at(InterceptionHookPoints::POST_RECV_MESSAGE) && is_of_messages(method_) && methods->GetRecvMessage()) {
+    if (is_at(InterceptionHookPoints::POST_RECV_MESSAGE) && has_parsed_requests(method_) && methods->GetRecvMessage()) {
       note_request(*static_cast<const Message*>(methods->GetRecvMessage()), notes_);
     }
     if (is_at(InterceptionHookPoints::PRE_SEND_MESSAGE)) {

@@ -65,11 +65,7 @@ class FakeServer::Scenes : public v1::SceneService::Service {
 
   grpc::Status PutScene(grpc::ServerContext*, const v1::PutSceneRequest* request,
                         v1::PutSceneResponse* response) override {
-    ++owner_.writes;
-    if (owner_.unavailable_for > 0) {
-      --owner_.unavailable_for;
-      return grpc::Status(grpc::StatusCode::UNAVAILABLE, "shutting down");
-    }
+    if (auto status = owner_.admit_write(); !status.ok()) return status;
     if (request->scene().nodes_size() == 0) {
       return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "scene: no nodes; expected at least 1");
     }
@@ -120,12 +116,14 @@ class FakeServer::Scenes : public v1::SceneService::Service {
 
   grpc::Status DeleteScene(grpc::ServerContext*, const v1::DeleteSceneRequest* request,
                            v1::DeleteSceneResponse*) override {
+    if (auto status = owner_.admit_write(); !status.ok()) return status;
     const std::lock_guard lock(owner_.mutex_);
     return owner_.catalog_.erase(request->name()) ? grpc::Status::OK : not_found(request->name());
   }
 
   grpc::Status EditParameters(grpc::ServerContext*, const v1::EditParametersRequest* request,
                               v1::EditParametersResponse* response) override {
+    if (auto status = owner_.admit_write(); !status.ok()) return status;
     const std::lock_guard lock(owner_.mutex_);
     const auto found = owner_.catalog_.find(request->name());
     if (found == owner_.catalog_.end()) return not_found(request->name());
@@ -323,7 +321,7 @@ class FakeServer::Operators : public v1::OperatorService::Service {
 
   grpc::Status PutOperator(grpc::ServerContext*, const v1::PutOperatorRequest* request,
                            v1::PutOperatorResponse* response) override {
-    ++owner_.writes;
+    if (auto status = owner_.admit_write(); !status.ok()) return status;
     if (request->operator_().kind_case() == v1::Operator::KIND_NOT_SET) {
       return grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "kind = (absent)");
     }
@@ -362,6 +360,7 @@ class FakeServer::Operators : public v1::OperatorService::Service {
 
   grpc::Status DeleteOperator(grpc::ServerContext*, const v1::DeleteOperatorRequest* request,
                               v1::DeleteOperatorResponse*) override {
+    if (auto status = owner_.admit_write(); !status.ok()) return status;
     const std::lock_guard lock(owner_.mutex_);
     return owner_.operator_catalog_.erase(request->name()) ? grpc::Status::OK : no_operator(request->name());
   }
@@ -453,6 +452,15 @@ class FakeServer::Surfaces : public v1::SurfaceService::Service {
 
 grpc::Status FakeServer::admit_read() {
   ++reads;
+  return admit();
+}
+
+grpc::Status FakeServer::admit_write() {
+  ++writes;
+  return admit();
+}
+
+grpc::Status FakeServer::admit() {
   if (unavailable_for > 0) {
     --unavailable_for;
     return grpc::Status(grpc::StatusCode::UNAVAILABLE, "shutting down");

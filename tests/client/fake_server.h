@@ -28,7 +28,7 @@ class FakeServer {
   ~FakeServer();
 
   // These members say how requests fail, and what the server has seen of them.
-  std::atomic<int> unavailable_for = 0;  // this many reads are answered by UNAVAILABLE
+  std::atomic<int> unavailable_for = 0;  // this many reads and writes are answered by UNAVAILABLE
   std::atomic<int> busy_for = 0;         // this many evaluations of one message are refused, to be sent again at once
   std::atomic<int> reads = 0;
   std::atomic<int> writes = 0;
@@ -57,7 +57,10 @@ class FakeServer {
   class Operators;
   class Surfaces;
 
+  // These count a request, and refuse it where `unavailable_for` says so.
   grpc::Status admit_read();
+  grpc::Status admit_write();
+  grpc::Status admit();
   grpc::Status find(const v1::SceneRef& reference);
 
   std::mutex mutex_;

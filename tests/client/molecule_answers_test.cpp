@@ -1,10 +1,13 @@
 // Compares the files of tests/data/molecules with the answers beside them.
 #include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
 #include <absl/strings/str_join.h>
 #include <absl/strings/str_split.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "gzip.h"
 #include "importers/elements.h"
@@ -101,22 +104,49 @@ TEST(MoleculeAnswers, EachFileHasItsAnswer) {
   }
 }
 
-// A changed byte in any file must not end the process, whatever the import yields.
+// An import of damaged bytes yields an error that names the file, or spheres that a server accepts.
+void expect_error_or_scene(const absl::StatusOr<Imported>& imported) {
+  if (!imported.ok()) {
+    EXPECT_EQ(imported.status().code(), absl::StatusCode::kInvalidArgument) << imported.status();
+    EXPECT_TRUE(absl::StartsWith(imported.status().message(), "changed: ")) << imported.status();
+    return;
+  }
+  const v1::Scene& scene = imported->scene;
+  ASSERT_GT(pieces_of(scene), 0);
+  EXPECT_EQ(imported->report.pieces, static_cast<std::size_t>(pieces_of(scene)));
+  std::set<std::string> names;
+  for (int i = 0; i < pieces_of(scene); ++i) {
+    const v1::Sphere& sphere = scene.nodes(i).sphere();
+    ASSERT_EQ(sphere.center_size(), 3) << "piece " << i;
+    for (const double x : sphere.center()) ASSERT_TRUE(std::isfinite(x)) << "piece " << i << ": " << x;
+    ASSERT_TRUE(sphere.radius() > 0 && std::isfinite(sphere.radius())) << "piece " << i << ": " << sphere.radius();
+    ASSERT_TRUE(sphere.range() > 0 && std::isfinite(sphere.range())) << "piece " << i << ": " << sphere.range();
+    const std::string& name = scene.nodes(i).name();
+    ASSERT_TRUE(name.empty() || names.insert(name).second) << "two pieces are called " << name;
+  }
+}
+
 TEST(MoleculeAnswers, ChangedBytesAreAnErrorOrAScene) {
   std::uint32_t random = 1;
+  int scenes = 0, errors = 0;
   for (const Answer& answer : read_answers()) {
     const auto text = read_file(kFolder + answer.file);
     if (!text.ok() || text->empty()) continue;
     for (int round = 0; round < 40; ++round) {
+      SCOPED_TRACE(absl::StrCat(answer.file, ", round ", round));
       std::string changed = *text;
       for (int change = 0; change <= round % 4; ++change) {
         random = random * 1664525u + 1013904223u;
         changed[random % changed.size()] = "\0\t\r\n -.9AH#_;'\"\xff("[(random >> 24) % 17];
       }
       if (round % 5 == 0) changed.resize(random % changed.size());
-      (void)import_text(changed, *import_format(answer.file), options_of(answer.options), "changed");
+      const auto imported = import_text(changed, *import_format(answer.file), options_of(answer.options), "changed");
+      expect_error_or_scene(imported);
+      ++(imported.ok() ? scenes : errors);
     }
   }
+  EXPECT_GT(scenes, 1000);
+  EXPECT_GT(errors, 100);
 }
 
 TEST(MoleculeAnswers, NamesInAssembliesCountTheCopies) {

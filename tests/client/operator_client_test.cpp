@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "fake_server.h"
 #include "isofield/client.h"
 #include "test_support.h"
@@ -84,12 +86,37 @@ TEST_F(OperatorClient, PicksOpenings) {
 }
 
 TEST_F(OperatorClient, RetriesReadsOnly) {
-  server_.unavailable_for = 2;
-  EXPECT_TRUE(client_.list_operators().ok());
-  server_.unavailable_for = 2;
-  EXPECT_TRUE(client_.evaluate_operator(request({"f1", "f2"}), std::vector<float>(2)).ok());
-  server_.unavailable_for = 2;
-  EXPECT_TRUE(client_.pick_opening(inline_scene({}), "top", {1, 2, 3}).ok());
+  v1::Operator op;
+  op.mutable_gradient();
+  ASSERT_TRUE(client_.put_operator("a", op).ok());
+  const std::function<absl::Status()> reads[] = {
+      [&] { return client_.list_operators().status(); },
+      [&] { return client_.get_operator("a").status(); },
+      [&] {
+        return client_.evaluate_operator(request({"f1", "f2"}), std::vector<float>(2)).status();
+      },
+      [&] {
+        return client_.pick_opening(inline_scene({}), "top", {1, 2, 3}).status();
+      },
+  };
+  for (std::size_t i = 0; i < std::size(reads); ++i) {
+    server_.reads = 0;
+    server_.unavailable_for = 2;
+    EXPECT_EQ(reads[i](), absl::OkStatus()) << "read " << i;
+    EXPECT_EQ(server_.reads, 3) << "read " << i;
+  }
+  // A write that is sent again could undo what another client wrote in between.
+  const std::function<absl::Status()> writes[] = {
+      [&] { return client_.put_operator("a", op).status(); },
+      [&] { return client_.delete_operator("a"); },
+  };
+  for (std::size_t i = 0; i < std::size(writes); ++i) {
+    server_.writes = 0;
+    server_.unavailable_for = 1;
+    EXPECT_EQ(writes[i]().code(), absl::StatusCode::kUnavailable) << "write " << i;
+    EXPECT_EQ(server_.writes, 1) << "write " << i;
+  }
+  EXPECT_EQ(server_.unavailable_for, 0);
 }
 
 }  // namespace

@@ -55,14 +55,19 @@ TEST(RegionOutline, LiesWhereTheRegionEnds) {
 TEST(RegionOutline, ReachesAWedgeAndASideOfTheFrame) {
   // Barthe's lines go straight down to the corner and have no hooks there.
   const auto wedge = region_outline(0, 1, 64, where([](const Point& p) { return p.y > 0.3 * p.x && p.x > 0.3 * p.y; }));
+  ASSERT_TRUE(wedge.ok()) << wedge.status();
+  double length = 0;
   for (const Segment& s : *wedge) {
     for (const Point& p : {s.a, s.b}) {
       const double off = std::min(std::abs(p.y - 0.3 * p.x), std::abs(p.x - 0.3 * p.y));
       EXPECT_LT(off, 1e-3) << p.x << " " << p.y;
     }
+    length += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
   }
+  EXPECT_NEAR(length, 2 * std::hypot(1, 0.3), 0.05) << "both sides, from the corner to the frame";
   // The region is all of the square but the axes themselves.
   const auto open = region_outline(0, 1, 64, where([](const Point& p) { return p.x > 0 && p.y > 0; }));
+  ASSERT_TRUE(open.ok()) << open.status();
   EXPECT_GE(open->size(), 2u * 63);
   for (const Segment& s : *open) EXPECT_LT(std::min(s.a.x, s.a.y), 1e-4);
 }

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <set>
-#include <thread>
 
 #include "fake_server.h"
 #include "integration/process.h"
 #include "isofield/scene_file.h"
+#include "support/eventually.h"
 #include "test_support.h"
 
 namespace isofield {
@@ -89,7 +89,8 @@ TEST_F(WatchTest, EndsWhileItWaitsForTheServer) {
   write_file(path("ball.json"), kBall);
   server_.endless_mesh = true;
   Process process(command("ball.json"));
-  while (process.is_running() && server_.reads == 0) std::this_thread::yield();
+  EXPECT_TRUE(test_support::eventually([&] { return server_.reads > 0 || !process.is_running(); }));
+  EXPECT_GT(server_.reads, 0) << process.errors();
   process.signal(SIGTERM);
   EXPECT_EQ(process.wait(), 0);
   EXPECT_EQ(files(), (std::set<std::string>{"ball.json", "socket"}));

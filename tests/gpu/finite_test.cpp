@@ -1,7 +1,10 @@
 // Tests that values and gradients are finite: those of single operators at the ends of float32, and those of scenes at
 // the ends of what parameters and points may be.
+#include <absl/strings/match.h>
 #include <absl/strings/str_cat.h>
 #include <absl/strings/str_join.h>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -14,6 +17,7 @@
 #include "gpu/gpu_environment.h"
 #include "gpu/operator_cases.h"
 #include "support/paper_scene.h"
+#include "support/primitive_nodes.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 
@@ -97,6 +101,11 @@ TEST(Finite, OperatorsAreAtTheEndsOfFloat32) {
   test_support::figure("rows", static_cast<double>(rows_in_all));
 }
 
+// Tells whether a field of a primitive is a place in space.
+bool is_point(const std::string& field) {
+  return field == "center" || field == "a" || field == "b" || field == "point";
+}
+
 // Draws lengths, coordinates and other parameters from the ends of what is accepted and from between.
 class ExtremeScene {
  public:
@@ -116,28 +125,29 @@ class ExtremeScene {
 
   std::string lengths() { return absl::StrCat("[", length(), ", ", length(), ", ", length(), "]"); }
 
-  std::string leaf(const std::string& name, bool is_signed, int shape) {
-    const std::string law = is_signed ? R"("law": "SIGNED")" : absl::StrCat(R"("range": )", length());
-    const std::string head = absl::StrCat(R"({"name": ")", name, R"(", )");
-    switch (shape) {
-      case 0:
-        return absl::StrCat(head, R"("sphere": {"center": )", point(), R"(, "radius": )", length(), ", ", law, "}}");
-      case 1:
-        return absl::StrCat(head, R"("segment": {"a": )", point(), R"(, "b": )", point(), R"(, "radius_a": )", length(),
-                            R"(, "radius_b": )", length(), ", ", law, "}}");
-      case 2:
-        return absl::StrCat(head, R"("box": {"center": )", point(), R"(, "half_size": )", lengths(),
-                            R"(, "rounding": )", random_.chance(0.5) ? 0 : 1e-9, ", ", law, "}}");
-      case 3:
-        return absl::StrCat(head, R"("cylinder": {"a": )", point(), R"(, "b": )", point(), R"(, "radius": )", length(),
-                            ", ", law, "}}");
-      case 4:
-        return absl::StrCat(head, R"("torus": {"center": )", point(), R"(, "axis": [1, 1e-9, -1e9], "major_radius": )",
-                            length(), R"(, "minor_radius": )", length(), ", ", law, "}}");
-      default:
-        return absl::StrCat(head, R"("ellipsoid": {"center": )", point(), R"(, "semi_axes": )", lengths(), ", ", law,
-                            "}}");
+  // Returns a value for a field of a primitive.
+  std::string number(const std::string& field) {
+    if (is_point(field)) return point();
+    if (field == "axis" || field == "normal") return "[1, 1e-9, -1e9]";
+    if (field == "half_size" || field == "semi_axes") return lengths();
+    if (field == "rounding") return random_.chance(0.5) ? "0" : "1e-9";
+    if (field == "law") return R"("SIGNED")";
+    if (field != "range" && !absl::StrContains(field, "radius")) {
+      ADD_FAILURE() << "there are no extreme numbers for the field " << field;
     }
+    return absl::StrCat(length());
+  }
+
+  // Returns a primitive with a value for every field that its message has.
+  std::string leaf(const std::string& name, bool is_signed, const std::string& kind) {
+    const auto* const body = v1::Node::descriptor()->FindFieldByName(kind)->message_type();
+    std::vector<std::string> fields;
+    for (int i = 0; i < body->field_count(); ++i) {
+      const std::string& field = body->field(i)->name();
+      if (field == (is_signed ? "range" : "law")) continue;
+      fields.push_back(absl::StrCat("\"", field, "\": ", number(field)));
+    }
+    return absl::StrCat(R"({"name": ")", name, R"(", ")", kind, R"(": {)", absl::StrJoin(fields, ", "), "}}");
   }
 
   // Returns a transform of `name`, called name + "t". Its condition is within the accepted limit.
@@ -196,9 +206,9 @@ class ExtremeScene {
   Random random_;
 };
 
-// The shapes of a scene's three leaves, and whether a transform stands above each of them.
+// The kinds of a scene's three leaves, and whether a transform stands above each of them.
 struct Shapes {
-  int leaves[3];
+  const char* leaves[3];
   bool has_maps;
 };
 
@@ -251,17 +261,17 @@ std::vector<float> extreme_points(const v1::Scene& scene, int count, Random& ran
   constexpr float kEnds[] = {0, -0.0f, 1e-45f, 1.2e-38f, -1e-30f, 1e-20f, -1e-9f, 1e-3f,  0.3f, -1,
                              1, 50,    -1e4f,  1e9f,     -1e9f,   1e10f,  1e15f,  -3e38f, kMost};
   std::vector<blobtree::dvec3> centres{{0, 0, 0}};
-  const auto add = [&](const auto& point) {
-    if (point.size() == 3) centres.push_back({point[0], point[1], point[2]});
-  };
+  const auto* const kind = v1::Node::descriptor()->FindOneofByName("kind");
   for (const v1::Node& node : scene.nodes()) {
-    add(node.sphere().center());
-    add(node.segment().a());
-    add(node.segment().b());
-    add(node.box().center());
-    add(node.cylinder().a());
-    add(node.torus().center());
-    add(node.ellipsoid().center());
+    const auto& reflection = *node.GetReflection();
+    const google::protobuf::Message& body = reflection.GetMessage(node, reflection.GetOneofFieldDescriptor(node, kind));
+    for (int i = 0; i < body.GetDescriptor()->field_count(); ++i) {
+      const auto* const field = body.GetDescriptor()->field(i);
+      if (!field->is_repeated() || !is_point(field->name()) || body.GetReflection()->FieldSize(body, field) != 3)
+        continue;
+      const auto x = [&](int axis) { return body.GetReflection()->GetRepeatedDouble(body, field, axis); };
+      centres.push_back({x(0), x(1), x(2)});
+    }
   }
   std::vector<float> points;
   for (int i = 0; i < count; ++i) {
@@ -297,10 +307,12 @@ TEST(Finite, ScenesAreAtTheEndsOfTheirParametersAndPoints) {
     const bool is_turned = c.op.form == Form::kIntersection && c.op.law() == Law::kSigned;
     if (!is_turned && std::none_of(all.begin(), all.end(), is_alike)) all.push_back(std::move(c));
   }
+  const auto& primitives = test_support::primitive_nodes();
+  ASSERT_GE(all.size(), primitives.size()) << "not every kind of primitive has its turn";
   for (std::size_t n = 0; n < all.size(); ++n) {
     const Case& c = all[n];
-    const int first = static_cast<int>(n % 6);
-    const Shapes shapes{{first, (first + 1) % 6, (first + 3) % 6}, n % 3 != 0};
+    const auto kind = [&](std::size_t i) { return primitives[(n + i) % primitives.size()].kind; };
+    const Shapes shapes{{kind(0), kind(1), kind(3)}, n % 3 != 0};
     ExtremeScene extreme(n);
     std::size_t bad = 0;
     ++sets;

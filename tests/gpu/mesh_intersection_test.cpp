@@ -20,8 +20,8 @@ namespace {
 void expect_no_intersections(const v1::Scene& scene, const engine::MeshRequest& request, const std::string& what) {
   static engine::Mesher mesher(device(), kernels(), workers());
   const auto mesh = mesher.mesh(*resident(scene), request, {});
-  ASSERT_TRUE(mesh.ok()) << mesh.status();
-  if (mesh->triangles.empty()) return;
+  ASSERT_TRUE(mesh.ok()) << what << ": " << mesh.status();
+  ASSERT_FALSE(mesh->triangles.empty()) << what << ", cell " << request.cell_size;
   const test_support::MeshReport report = test_support::check_mesh(mesh->positions, mesh->triangles);
   EXPECT_TRUE(report.sound()) << what << ": " << report.text();
   EXPECT_EQ(report.zero_area, 0u) << what;

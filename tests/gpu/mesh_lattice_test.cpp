@@ -134,6 +134,7 @@ TEST(MeshLattice, TurnedBoxesHaveAllTheirCorners) {
 
 TEST(MeshLattice, ShearedBoxesHaveAllTheirCorners) {
   double worst = 0;
+  int meshes = 0;
   for (const double shear : {0.5, -0.5}) {
     const Affine map{{{{1, 0, shear}, {0, 1, 0}, {0, 0, 1}}}, {}};
     const std::string box = absl::StrCat(R"([{"name": "box", "box": {"half_size": [1, 0.5, 0.5], "law": "SIGNED"}},
@@ -143,6 +144,7 @@ TEST(MeshLattice, ShearedBoxesHaveAllTheirCorners) {
       const v1::Scene scene = test_support::scene_of_nodes(box + turn.nodes_above("sheared") + "]");
       for (const double cell : kDividing) {
         if (std::abs(std::remainder(0.5 * shear, cell)) > 1e-9) continue;
+        ++meshes;
         const Mesh mesh = mesh_of(scene, {.cell_size = cell, .iso = 0});
         const std::string what = absl::StrCat(scene.ShortDebugString(), ", cell ", cell);
         expect_solid(mesh, {1, 0, 2}, cell, what);
@@ -152,6 +154,7 @@ TEST(MeshLattice, ShearedBoxesHaveAllTheirCorners) {
       }
     }
   }
+  EXPECT_EQ(meshes, 2 * 24 * 3) << "cells of 0.1 do not divide the shear";
   std::cout << "the furthest corner is " << worst << " cells off\n";
 }
 
@@ -213,8 +216,10 @@ TEST(MeshLattice, BoxesTurnedAnyWayHaveMostOfTheirCorners) {
       cuts[sides_seen(corner, half, map, kCell)].push_back(furthest_corner(mesh, {corner}) / kCell);
     }
   }
+  std::ptrdiff_t kept = 0;
   for (std::size_t sides = 0; sides < cuts.size(); ++sides) {
     std::vector<double>& c = cuts[sides];
+    kept += std::count_if(c.begin(), c.end(), [](double x) { return x <= 0.02; });
     if (c.empty()) continue;
     std::sort(c.begin(), c.end());
     std::cout << c.size() << " corners in cells that see " << sides
@@ -222,6 +227,10 @@ TEST(MeshLattice, BoxesTurnedAnyWayHaveMostOfTheirCorners) {
               << " within 0.02 cells, mean " << std::accumulate(c.begin(), c.end(), 0.0) / c.size() << ", 95 % within "
               << c[c.size() * 95 / 100] << ", the furthest " << c.back() << "\n";
   }
+  EXPECT_GE(kept, 580) << "of 800 corners";
+  ASSERT_GE(cuts[3].size(), 400u);
+  ASSERT_GE(cuts[2].size(), 150u);
+  ASSERT_FALSE(cuts[0].empty());
   // The other corners lie in cells with several patches, or their creases end in the cells beside them. If the surface
   // crosses no edge of a corner's cell, the corner is cut off, because the vertices beside it keep to their own cells.
   EXPECT_LE(cuts[3][cuts[3].size() * 99 / 100], 0.02);
@@ -348,6 +357,7 @@ TEST(MeshLattice, PartsOfWhatRunsThroughItAreTheWhole) {
       {"name": "t", "transform": {"child": "u", "rotation": [0, 0, 1, 90]}}])");
   MeshRequest request{.cell_size = 0.05};
   const Mesh whole = mesh_of(scene, request);
+  ASSERT_FALSE(whole.triangles.empty());
   for (const std::size_t at_once : {40, 700}) {
     request.bricks_at_once = at_once;
     const Mesh joined = mesh_of(scene, request);

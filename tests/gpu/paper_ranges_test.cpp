@@ -14,6 +14,7 @@
 #include "support/paper_scene.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
+#include "support/worst.h"
 
 namespace isofield::gpu_test {
 namespace {
@@ -24,6 +25,7 @@ using operators::Kind;
 using operators::Operator;
 using reference::Evaluator;
 using test_support::figure;
+using test_support::keep_worst;
 using test_support::Random;
 
 struct Family {
@@ -86,6 +88,7 @@ TEST(PaperRanges, WeightsDoNotMoveTheZeroSet) {
       }
       const std::vector<float> a = on_device({family.name, op, k}, x), b = on_device({family.name, even, k}, x);
       for (std::size_t i = 0; i < a.size(); i += 1 + k) {
+        ASSERT_TRUE(std::isfinite(a[i]) && std::isfinite(b[i])) << family.name;
         const bool is_near = std::min(std::abs(a[i]), std::abs(b[i])) < 1e-6f;
         const bool differs = (a[i] < 0) != (b[i] < 0);
         near += is_near;
@@ -97,6 +100,7 @@ TEST(PaperRanges, WeightsDoNotMoveTheZeroSet) {
     figure(absl::StrCat(family.name, ": of those, of different sign"), differ_near);
     figure(absl::StrCat(family.name, ": farther points of different sign"), differ);
     EXPECT_EQ(differ, 0) << family.name;
+    EXPECT_GT(near, 1000) << family.name << ": the points test nothing near the surface";
   }
   figure("points in all", static_cast<double>(all));
   EXPECT_EQ(all, 1'000'000u);
@@ -146,11 +150,11 @@ TEST(PaperRanges, OutsideTheBlendALevelIsTheLeastField) {
             ++clear;
             below += g < static_cast<float>(l.value);
           }
-          most_above = std::max(most_above, (g - l.value) / scale);
+          keep_worst(most_above, (g - l.value) / scale);
         } else {
           ++outside;
           same_bits += g == static_cast<float>(l.value);
-          most_off = std::max(most_off, std::abs(g - l.value) / scale);
+          keep_worst(most_off, std::abs(g - l.value) / scale);
         }
       }
     });
@@ -186,6 +190,7 @@ TEST(PaperRanges, WithWeightsOfOneTheLeastFieldIsKeptToTheBit) {
       }
     }
     figure(absl::StrCat(family.name, ": points outside"), outside);
+    EXPECT_GT(outside, 1000) << family.name;
   }
 }
 
@@ -202,7 +207,7 @@ TEST(PaperRanges, LevelsAreTheZeroSetMovedByTheWeights) {
       const std::vector<float> at_moved = on_device({family.name, op, family.operands}, moved);
       for (std::size_t i = 0; i < results.size(); i += 1 + family.operands) {
         const float expected = results[i] + kLevel;
-        worst = std::max(worst, double{std::abs(at_moved[i] - expected) / std::max(1.0f, std::abs(expected))});
+        keep_worst(worst, std::abs(at_moved[i] - expected) / std::max(1.0f, std::abs(expected)));
       }
     });
     figure(absl::StrCat(family.name, ": B(x + m h) off B(x) + h by at most"), worst);
@@ -241,6 +246,7 @@ TEST(PaperRanges, FormsOfOneBlendAreDeMorgans) {
     });
   }
   figure("identities that hold to the bit", static_cast<double>(compared));
+  EXPECT_EQ(compared, std::size(kFamilies) * 4 * 5'000 * 2);
 }
 
 std::string signed_segment(const std::string& name, const dvec3& a, const dvec3& b, double radius) {

@@ -38,7 +38,7 @@ class OpenGrid {
   }
 
  private:
-  grpc::ClientContext context_;
+  LimitedContext context_;
   std::unique_ptr<grpc::ClientReader<v1::EvaluateGridResponse>> stream_;
 };
 
@@ -76,14 +76,14 @@ TEST(Admission, PointsOfAllKindsShareALimit) {
   *rays.mutable_directions() = points_tensor(std::span<const float>(std::vector<float>(xyz.size(), 1)));
   {
     const OpenGrid open(peer);  // the points are more than is admitted, but nothing else was there
-    grpc::ClientContext context;
+    LimitedContext context;
     expect_refused(evaluate_grid(peer, context), StatusCode::RESOURCE_EXHAUSTED,
                    {"64000000 points", "1000 are admitted", "--max-running-points", "try again in"});
     EXPECT_GE(pushback(context), 1);
     ReceivedMesh mesh;
     expect_refused(peer.mesh(mesh_request(inlined(ball.scene()), 0.1), &mesh), StatusCode::RESOURCE_EXHAUSTED,
                    {"--max-running-points"});
-    grpc::ClientContext ray_context;
+    LimitedContext ray_context;
     v1::CastRaysResponse hits;
     expect_refused(peer.surfaces().CastRays(&ray_context, rays, &hits), StatusCode::RESOURCE_EXHAUSTED,
                    {"--max-running-points"});
@@ -94,11 +94,11 @@ TEST(Admission, PointsOfAllKindsShareALimit) {
     EXPECT_TRUE(ok(peer.put("ball", ball.scene())));
   }
   expect_served_soon([&] {
-    grpc::ClientContext context;
+    LimitedContext context;
     return evaluate_grid(peer, context);
   });
   expect_served_soon([&] {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::CastRaysResponse hits;
     return peer.surfaces().CastRays(&context, rays, &hits);
   });
@@ -114,7 +114,7 @@ TEST(Admission, CallsOfAllKindsShareALimit) {
     const std::vector<std::string> refusal{"1 requests", "1 with", "--max-running-requests"};
     expect_refused(peer.put("other", ball.scene()), StatusCode::RESOURCE_EXHAUSTED, refusal);
     expect_refused(peer.remove("ball"), StatusCode::RESOURCE_EXHAUSTED, refusal);
-    grpc::ClientContext context;
+    LimitedContext context;
     expect_refused(evaluate_grid(peer, context), StatusCode::RESOURCE_EXHAUSTED, refusal);
     EXPECT_GE(pushback(context), 1);
     std::vector<float> results;

@@ -213,7 +213,7 @@ TEST_F(BadRequest, BadMeshesAreRefused) {
     request = mesh_request(named("ball"), 0.1);
     request.set_simplification_error(error);
     refused(request, {absl::StrCat("simplification_error = ", error), "> 0"});
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::MeasureResponse measured;
     expect_refused(peer_.meshes().Measure(&context, request, &measured), StatusCode::INVALID_ARGUMENT,
                    {absl::StrCat("simplification_error = ", error), "> 0"});
@@ -296,7 +296,7 @@ TEST(Streams, AreFewerThanThreads) {
   Peer peer(daemon.address());
   const Ball ball;
   struct Stream {
-    grpc::ClientContext context;
+    LimitedContext context;
     std::unique_ptr<grpc::ClientReaderWriter<v1::EvaluateStreamRequest, v1::EvaluateResponse>> call;
   };
   std::vector<std::unique_ptr<Stream>> open;

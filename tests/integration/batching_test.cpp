@@ -8,6 +8,7 @@
 #include "integration/ball.h"
 #include "integration/daemon.h"
 #include "integration/peer.h"
+#include "support/eventually.h"
 #include "support/random_scene.h"
 #include "support/scene_text.h"
 
@@ -93,7 +94,9 @@ class LargeCall {
       is_done_ = true;
     });
     // The call has begun when its points are on the device.
-    while (peer_.info().device_bytes() < before + xyz.size() * sizeof(float) && !is_done_) std::this_thread::yield();
+    const std::uint64_t begun = before + xyz.size() * sizeof(float);
+    EXPECT_TRUE(test_support::eventually([&] { return peer_.info().device_bytes() >= begun || is_done_; }));
+    EXPECT_FALSE(is_done_) << "the call has ended already";
   }
   ~LargeCall() { cancel(); }
 
@@ -105,7 +108,7 @@ class LargeCall {
 
  private:
   Peer peer_;
-  grpc::ClientContext context_;
+  LimitedContext context_;
   grpc::Status status_;
   std::atomic<bool> is_done_ = false;
   std::thread thread_;
@@ -131,7 +134,7 @@ TEST(Batching, AFullQueueRefusesAtOnceAndSaysWhenToTryAgain) {
   const Ball ball;
   const std::vector<float> xyz = points_around(ball, 1, 64);
   LargeCall large(daemon.address());  // more than is admitted, but nothing else was there
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::EvaluateResponse response;
   const grpc::Status status = peer.fields().Evaluate(&context, request_of(inlined(ball.scene()), xyz), &response);
   expect_refused(status, grpc::StatusCode::RESOURCE_EXHAUSTED,

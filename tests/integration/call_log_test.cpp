@@ -1,5 +1,6 @@
 // Tests that the log has a line for each call with --log-level debug.
 #include <gtest/gtest.h>
+#include <isofield/client.h>
 
 #include <regex>
 #include <string>
@@ -43,6 +44,7 @@ TEST(CallLog, HasALineForEachCallOfTheDebugLevel) {
     grid.add_spacing(0.1);
     for (const std::uint64_t count : {3, 4, 5}) grid.add_counts(count);
     ASSERT_TRUE(ok(peer.evaluate_grid(grid, &out)));
+    ASSERT_TRUE(Client::connect(daemon.address())->track_mesh(mesh_request(named("ball"), 0.1)).ok());
     EXPECT_EQ(peer.evaluate(named("none\nof\x1b[31mthese"), points_around(ball, 0, 1), false, &out).error_code(),
               grpc::StatusCode::NOT_FOUND);
     v1::GetOperatorRequest request;
@@ -60,6 +62,7 @@ TEST(CallLog, HasALineForEachCallOfTheDebugLevel) {
   expect_calls(log, "MeshService/Mesh scene=ball cells=[1-9]\\d*" + kTimes + "OK\n");
   expect_calls(log, "OperatorService/GetOperator operator=gradient" + kTimes + "OK\n");
   expect_calls(log, "FieldService/EvaluateGrid scene=ball points=60" + kTimes + "OK\n");
+  expect_calls(log, "MeshService/TrackMesh" + kTimes + "[^\n]*\n");
   // A call has one line, whatever characters the name holds.
   expect_calls(log, R"(FieldService/Evaluate scene=none\?of\?\[31mthese)" + kTimes + "NOT_FOUND: [^\n]*\n");
   // The mesh is the first to need its kernels, so it has waited for them, and the device has worked for it.

@@ -7,8 +7,8 @@
 #include <signal.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include "integration/ball.h"
 #include "integration/daemon.h"
@@ -16,6 +16,7 @@
 #include "integration/peer.h"
 #include "integration/process.h"
 #include "integration/temporary_directory.h"
+#include "support/eventually.h"
 #include "support/mesh_check.h"
 
 namespace isofield::integration_test {
@@ -47,6 +48,11 @@ class Command : public testing::Test {
     for (const std::string& part : parts) {
       EXPECT_NE(outcome.errors.find(part), std::string::npos) << "'" << part << "' in: " << outcome.errors;
     }
+  }
+  // The output file appears in the directory when the process begins to write.
+  void wait_until_it_writes(Process& process, const std::string& listing_before) const {
+    const auto has_come = [&] { return directory_.listing() != listing_before || !process.is_running(); };
+    EXPECT_TRUE(test_support::eventually(has_come)) << process.errors();
   }
 
   TemporaryDirectory directory_;
@@ -167,17 +173,19 @@ TEST_F(Command, ExitCodesAndTextsTellWhatIsWrong) {
 TEST_F(Command, KilledWhileItWritesItLeavesTheOldFile) {
   write_file(path("m.stl"), "old");
   const std::string before = directory_.listing();
-  for (int round = 0; round < 3; ++round) {
+  int killed = 0;
+  for (int round = 0; round < 10 && killed < 3; ++round) {
     Process process(command({"mesh", path("ball.json"), "--cell", "0.005", "-o", path("m.stl")}));
-    // The output file appears when the process begins to write.
-    while (process.is_running() && directory_.listing() == before) std::this_thread::yield();
+    wait_until_it_writes(process, before);
     process.signal(SIGKILL);
     const int code = process.wait();
     const std::string written = read_file(path("m.stl"));
     if (code == 0) {
       EXPECT_GT(written.size(), 1'000'000u) << "it was quicker than the signal: all is there";
     } else {
+      EXPECT_EQ(code, 128 + SIGKILL) << process.errors();
       EXPECT_TRUE(written == "old") << written.size() << " bytes under the final name";
+      ++killed;
     }
     for (const auto& entry : std::filesystem::directory_iterator(path(""))) {
       const std::string name = entry.path().filename();
@@ -185,16 +193,24 @@ TEST_F(Command, KilledWhileItWritesItLeavesTheOldFile) {
     }
     write_file(path("m.stl"), "old");
   }
+  EXPECT_EQ(killed, 3) << "it was quicker than the signal";
 }
 
 TEST_F(Command, InterruptedItRemovesWhatItBegan) {
-  Process process(command({"mesh", path("ball.json"), "--cell", "0.005", "-o", path("m.stl")}));
   const std::string before = "ball.json\n";
-  while (process.is_running() && directory_.listing() == before) std::this_thread::yield();
-  process.signal(SIGTERM);
-  if (process.wait() != 0) {
-    EXPECT_EQ(directory_.listing(), before);
+  bool is_interrupted = false;
+  for (int round = 0; round < 10 && !is_interrupted; ++round) {
+    Process process(command({"mesh", path("ball.json"), "--cell", "0.005", "-o", path("m.stl")}));
+    wait_until_it_writes(process, before);
+    process.signal(SIGTERM);
+    is_interrupted = process.wait() != 0;
+    if (is_interrupted) {
+      EXPECT_EQ(process.wait(), 128 + SIGTERM) << process.errors();
+      EXPECT_EQ(directory_.listing(), before);
+    }
+    std::filesystem::remove(path("m.stl"));
   }
+  EXPECT_TRUE(is_interrupted) << "it was quicker than the signal";
 }
 
 TEST_F(Command, ARefusedCellIsRefusedInTheWordsOfItsOption) {

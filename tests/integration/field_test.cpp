@@ -47,16 +47,26 @@ TEST(Field, BatchesOfAnySizeFollowTheFormula) {
 TEST(Field, DoublesAreRoundedToFloats) {
   Peer peer(shared_daemon().address());
   const Ball ball;
-  const std::vector<float> xyz = points_around(ball, 1, 1000);
-  const std::vector<double> wide(xyz.begin(), xyz.end());
+  // Each coordinate lies a quarter or three quarters of the way from one float32 to the next one.
+  const std::vector<float> below = points_around(ball, 1, 1000);
+  std::vector<double> wide;
+  std::vector<float> nearest;
+  for (const float x : below) {
+    const float above = std::nextafter(x, std::copysign(INFINITY, x));
+    const bool is_near = wide.size() % 2 == 0;
+    wide.push_back(x + (is_near ? 0.25 : 0.75) * (double{above} - x));
+    nearest.push_back(is_near ? x : above);
+  }
   v1::EvaluateRequest request;
   *request.mutable_scene() = inlined(ball.scene());
   *request.mutable_points() = points_tensor(std::span(wide));
   v1::EvaluateResponse response;
   ASSERT_TRUE(ok(peer.evaluate(request, &response)));
-  std::vector<float> narrow;
-  ASSERT_TRUE(ok(peer.evaluate(inlined(ball.scene()), xyz, false, &narrow)));
-  EXPECT_TRUE(same_bits(floats_of(response.result()), narrow)) << "no quantity stated: values";
+  std::vector<float> rounded, truncated;
+  ASSERT_TRUE(ok(peer.evaluate(inlined(ball.scene()), nearest, false, &rounded)));
+  ASSERT_TRUE(ok(peer.evaluate(inlined(ball.scene()), below, false, &truncated)));
+  EXPECT_TRUE(same_bits(floats_of(response.result()), rounded)) << "no quantity stated: values";
+  EXPECT_FALSE(same_bits(rounded, truncated)) << "these points do not tell rounding from truncation";
 }
 
 TEST(Field, TenMillionStreamedPointsFollowTheFormula) {

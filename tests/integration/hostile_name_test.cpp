@@ -30,7 +30,7 @@ class HostileName : public testing::Test {
   void expect_names_shown(const std::string& name, const std::string& shown) {
     Peer peer(shared_daemon().address(), Peer::Messages::kByDefault);
     const float origin[] = {0, 0, 0};
-    const auto context = [this] { return contexts_.emplace_back(std::make_unique<grpc::ClientContext>()).get(); };
+    const auto context = [this] { return contexts_.emplace_back(std::make_unique<LimitedContext>()).get(); };
     expect_shown(peer.evaluate(named(name), origin, false, nullptr), StatusCode::NOT_FOUND, shown);
     v1::EvaluateStreamRequest first;
     *first.mutable_scene() = named(name);
@@ -89,7 +89,7 @@ class HostileName : public testing::Test {
     EXPECT_TRUE(ok(peer.remove("edited")));
   }
 
-  std::vector<std::unique_ptr<grpc::ClientContext>> contexts_;
+  std::vector<std::unique_ptr<LimitedContext>> contexts_;
 };
 
 TEST_F(HostileName, OfAMegabyteIsCut) {
@@ -121,7 +121,7 @@ TEST_F(HostileName, OfColumnsAreFew) {
   v1::EvaluateOperatorRequest request;
   request.set_name("sum");
   for (int i = 0; i < 1000; ++i) request.add_columns(kLines + kLong.substr(0, 1000));
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::EvaluateOperatorResponse response;
   expect_shown(peer.operators().EvaluateOperator(&context, request, &response), StatusCode::INVALID_ARGUMENT,
                "one\\ntwo\\x1b[31m\\r");

@@ -77,6 +77,8 @@ TEST_F(Mesh, CanGoWithoutNormals) {
   const ReceivedMesh with = peer_.mesh(request);
   request.set_omit_normals(true);
   const ReceivedMesh without = peer_.mesh(request);
+  ASSERT_FALSE(with.triangles.empty());
+  EXPECT_EQ(with.normals.size(), with.positions.size());
   EXPECT_TRUE(without.normals.empty());
   EXPECT_EQ(without.positions, with.positions);
   EXPECT_EQ(without.triangles, with.triangles);
@@ -172,13 +174,15 @@ TEST_F(Mesh, IsSimplifiedWithinTheError) {
   EXPECT_EQ(peer_.mesh(request).positions, received.positions);
   EXPECT_EQ(peer_.mesh(request).triangles, received.triangles);
 
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::MeasureResponse measured;
   ASSERT_TRUE(ok(peer_.meshes().Measure(&context, request, &measured)));
   EXPECT_EQ(measured.summary().triangles(), received.summary.triangles());
   EXPECT_NEAR(measured.volume(), test_support::check_mesh(received.positions, received.triangles).volume, 1e-9);
   request.set_omit_normals(true);
   const ReceivedMesh without = peer_.mesh(request);
+  ASSERT_FALSE(received.triangles.empty());
+  EXPECT_EQ(received.normals.size(), received.positions.size());
   EXPECT_TRUE(without.normals.empty());
   EXPECT_EQ(without.triangles, received.triangles);
 }
@@ -222,7 +226,7 @@ TEST_F(Mesh, CountsItsBodiesAndVoidsAndLeavesThemOut) {
     const test_support::MeshReport report = test_support::check_mesh(received.positions, received.triangles);
     EXPECT_EQ(report.components, expected[0] + expected[1]);
     EXPECT_NEAR(report.volume, volume, 0.02 * volume);
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::MeasureResponse measured;
     ASSERT_TRUE(ok(peer_.meshes().Measure(&context, request, &measured)));
     EXPECT_EQ(counts(measured.summary()), expected);

@@ -164,7 +164,7 @@ TEST_F(MessageSize, QuestionsAboutSurfacesRefuseWhatTheClientWouldNotTake) {
   v1::Tensor many = points_tensor(std::span<const float>(points_around(Ball(), 1, 150'000)));
   const auto scene = inlined(Ball().scene());
 
-  grpc::ClientContext contexts[8];
+  LimitedContext contexts[8];
   v1::ProjectPointsRequest project;
   *project.mutable_scene() = scene;
   *project.mutable_points() = many;
@@ -219,7 +219,7 @@ TEST_F(MessageSize, OperatorsRefuseWhatTheClientWouldNotTake) {
   tensor.add_shape(2);
   tensor.set_data(arguments.data(), arguments.size() * sizeof(float));
   v1::EvaluateOperatorResponse response;
-  grpc::ClientContext contexts[2];
+  LimitedContext contexts[2];
   expect_refused(plain_.operators().EvaluateOperator(&contexts[0], request, &response), StatusCode::RESOURCE_EXHAUSTED,
                  {"4800000", "4194304", "fewer rows"});
   request.set_max_answer_bytes(kAny);
@@ -243,7 +243,7 @@ TEST_F(MessageSize, LargeScenesComeInParts) {
   v1::GetSceneResponse whole;
   expect_refused(plain_.get("large", &whole), StatusCode::RESOURCE_EXHAUSTED,
                  {absl::StrCat(scene.ByteSizeLong()), "4194304", "GetSceneParts"});
-  grpc::ClientContext contexts[3];
+  LimitedContext contexts[3];
   v1::GetSceneRequest request;
   request.set_name("large");
   request.set_max_answer_bytes(kAny);
@@ -274,7 +274,7 @@ TEST_F(MessageSize, ScenesAreListedFromANameOn) {
   for (const char* name : {"a", "b", "c"}) ASSERT_TRUE(ok(peer_.put(name, Ball().scene())));
   v1::ListScenesRequest request;
   request.set_after("a");
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::ListScenesResponse response;
   ASSERT_TRUE(ok(plain_.scenes().ListScenes(&context, request, &response)));
   ASSERT_EQ(response.scenes_size(), 2);
@@ -296,7 +296,7 @@ TEST_F(MessageSize, LongListsOfOperatorsComeInPages) {
   const auto name = [](int i) { return absl::StrCat("operator-", absl::Dec(i, absl::kZeroPad4)); };
   for (int i = 0; i < 4500; ++i) {
     put.set_name(name(i));
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::PutOperatorResponse response;
     ASSERT_TRUE(ok(peer.operators().PutOperator(&context, put, &response)));
     if (i == 0) put.mutable_operator_()->set_description(std::string(5000, 'd'));
@@ -306,7 +306,7 @@ TEST_F(MessageSize, LongListsOfOperatorsComeInPages) {
   v1::ListOperatorsResponse response;
   do {
     ++pages;
-    grpc::ClientContext context;
+    LimitedContext context;
     ASSERT_TRUE(ok(peer.operators().ListOperators(&context, request, &response)));
     for (const v1::OperatorSummary& summary : response.operators()) {
       if (summary.version() == 0) {
@@ -330,7 +330,7 @@ TEST_F(MessageSize, MeshesOfAMillionTrianglesReachClientsWithoutOptions) {
   ReceivedMesh mesh;
   ASSERT_TRUE(ok(plain_.mesh(request, &mesh)));
   EXPECT_GT(mesh.summary.triangles(), 1'000'000u);
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::MeshBricksRequest bricks;
   *bricks.mutable_mesh() = request;
   const auto stream = plain_.meshes().GetMeshBricks(&context, bricks);

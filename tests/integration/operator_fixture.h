@@ -38,7 +38,7 @@ class OperatorFixture : public testing::Test {
   }
   static grpc::Status put(Peer& peer, const std::string& name, const v1::Operator& message,
                           v1::OperatorSummary* summary = nullptr) {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::PutOperatorRequest request;
     request.set_name(name);
     *request.mutable_operator_() = message;
@@ -48,20 +48,20 @@ class OperatorFixture : public testing::Test {
     return status;
   }
   grpc::Status get(const std::string& name, v1::GetOperatorResponse* response) {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::GetOperatorRequest request;
     request.set_name(name);
     return peer_.operators().GetOperator(&context, request, response);
   }
   grpc::Status remove(const std::string& name) {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::DeleteOperatorRequest request;
     request.set_name(name);
     v1::DeleteOperatorResponse response;
     return peer_.operators().DeleteOperator(&context, request, &response);
   }
   std::vector<v1::OperatorSummary> list() {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::ListOperatorsResponse response;
     EXPECT_TRUE(ok(peer_.operators().ListOperators(&context, {}, &response)));
     return {response.operators().begin(), response.operators().end()};
@@ -85,13 +85,13 @@ class OperatorFixture : public testing::Test {
     tensor.set_data(numbers.data(), numbers.size() * sizeof(float));
   }
   grpc::Status evaluate(const v1::EvaluateOperatorRequest& request, v1::EvaluateOperatorResponse* response = nullptr) {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::EvaluateOperatorResponse ignored;
     return peer_.operators().EvaluateOperator(&context, request, response ? response : &ignored);
   }
   grpc::Status pick(const v1::SceneRef& scene, const std::string& node, const std::vector<double>& point,
                     v1::PickOpeningResponse* response) {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::PickOpeningRequest request;
     *request.mutable_scene() = scene;
     request.set_node(node);

@@ -219,7 +219,7 @@ TEST(OperatorLimit, RefusesMoreOperatorsThanAdmitted) {
   Daemon daemon({"--max-operators", "1"});
   Peer peer(daemon.address());
   const auto put = [&](const std::string& name) {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::PutOperatorRequest request;
     request.set_name(name);
     *request.mutable_operator_() = bulge(0.5);

@@ -61,7 +61,7 @@ grpc::Status Peer::put(const std::string& name, const v1::Scene& scene, v1::Scen
 }
 
 grpc::Status Peer::put(const v1::PutSceneRequest& request, v1::SceneSummary* summary) {
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::PutSceneResponse response;
   const grpc::Status status = scenes_->PutScene(&context, request, &response);
   if (summary) *summary = response.summary();
@@ -69,14 +69,14 @@ grpc::Status Peer::put(const v1::PutSceneRequest& request, v1::SceneSummary* sum
 }
 
 grpc::Status Peer::get(const std::string& name, v1::GetSceneResponse* response) {
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::GetSceneRequest request;
   request.set_name(name);
   return scenes_->GetScene(&context, request, response);
 }
 
 grpc::Status Peer::remove(const std::string& name) {
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::DeleteSceneRequest request;
   request.set_name(name);
   v1::DeleteSceneResponse response;
@@ -84,14 +84,14 @@ grpc::Status Peer::remove(const std::string& name) {
 }
 
 std::vector<v1::SceneSummary> Peer::list() {
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::ListScenesResponse response;
   EXPECT_TRUE(ok(scenes_->ListScenes(&context, {}, &response)));
   return {response.scenes().begin(), response.scenes().end()};
 }
 
 grpc::Status Peer::edit(const v1::EditParametersRequest& request, v1::SceneSummary* summary) {
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::EditParametersResponse response;
   const grpc::Status status = scenes_->EditParameters(&context, request, &response);
   if (summary) *summary = response.summary();
@@ -99,7 +99,7 @@ grpc::Status Peer::edit(const v1::EditParametersRequest& request, v1::SceneSumma
 }
 
 v1::GetInfoResponse Peer::info() {
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::GetInfoResponse response;
   EXPECT_TRUE(ok(infos_->GetInfo(&context, {}, &response)));
   return response;
@@ -123,13 +123,13 @@ grpc::Status Peer::evaluate(const v1::SceneRef& scene, std::span<const float> xy
 }
 
 grpc::Status Peer::evaluate(const v1::EvaluateRequest& request, v1::EvaluateResponse* response) {
-  grpc::ClientContext context;
+  LimitedContext context;
   return fields_->Evaluate(&context, request, response);
 }
 
 grpc::Status Peer::evaluate_stream(const std::vector<v1::EvaluateStreamRequest>& requests,
                                    std::vector<v1::EvaluateResponse>* responses) {
-  grpc::ClientContext context;
+  LimitedContext context;
   const auto stream = fields_->EvaluateStream(&context);
   for (const v1::EvaluateStreamRequest& request : requests) {
     if (!stream->Write(request)) break;
@@ -144,7 +144,7 @@ grpc::Status Peer::evaluate_stream(const std::vector<v1::EvaluateStreamRequest>&
 
 grpc::Status Peer::evaluate_grid(const v1::EvaluateGridRequest& request, std::vector<float>* out,
                                  std::size_t* messages) {
-  grpc::ClientContext context;
+  LimitedContext context;
   const auto stream = fields_->EvaluateGrid(&context, request);
   v1::EvaluateGridResponse response;
   std::uint64_t points = 0;
@@ -167,7 +167,7 @@ grpc::Status Peer::evaluate_grid(const v1::EvaluateGridRequest& request, std::ve
 }
 
 grpc::Status Peer::mesh(const v1::MeshRequest& request, ReceivedMesh* mesh) {
-  grpc::ClientContext context;
+  LimitedContext context;
   const auto stream = meshes_->Mesh(&context, request);
   v1::MeshResponse response;
   bool has_summary = false;

@@ -6,6 +6,7 @@
 #include <grpcpp/support/status.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -20,6 +21,13 @@
 #include "isofield/v1/surface_service.grpc.pb.h"
 
 namespace isofield::integration_test {
+
+// The context of a call that ends with DEADLINE_EXCEEDED after five minutes, so that a fault fails the test that would
+// hang otherwise.
+class LimitedContext : public grpc::ClientContext {
+ public:
+  LimitedContext() { set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(5)); }
+};
 
 // A mesh as it came over the wire.
 struct ReceivedMesh {

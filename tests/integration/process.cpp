@@ -1,6 +1,8 @@
 #include "integration/process.h"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -11,6 +13,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
+// The C library's header declares pidfd_open() without C linkage before version 2.37.
+extern "C" {
+#include <sys/pidfd.h>
+}
 
 extern char** environ;
 
@@ -80,13 +87,39 @@ bool Process::is_running() {
   return false;
 }
 
+bool Process::ends_in_time() const {
+  const int descriptor = ::pidfd_open(pid_, 0);
+  if (descriptor < 0) die("pidfd_open", errno);
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(5);
+  pollfd ended{descriptor, POLLIN, 0};
+  int ready = 0;
+  do {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(limit - std::chrono::steady_clock::now()).count();
+    ready = ::poll(&ended, 1, left > 0 ? static_cast<int>(left) : 0);
+  } while (ready < 0 && errno == EINTR);
+  ::close(descriptor);
+  return ready > 0;
+}
+
 int Process::wait() {
+  if (is_running() && !ends_in_time()) {
+    ADD_FAILURE() << "process " << pid_ << " has not ended within five minutes, and is killed. It wrote:\n" << errors();
+    signal(SIGKILL);
+  }
   int status = 0;
   while (exit_code_ < 0) {
     if (::waitpid(pid_, &status, 0) == pid_) {
       exit_code_ = exit_code_of(status);
     } else if (errno != EINTR) {
       die("waitpid", errno);
+    }
+  }
+  {
+    // A child of the process may still hold its streams open. Nothing can end the threads that read them.
+    std::unique_lock lock(mutex_);
+    const auto are_closed = [&] { return output_.is_closed && errors_.is_closed; };
+    if (!changed_.wait_for(lock, std::chrono::minutes(2), are_closed)) {
+      die("a child of an ended process holds its output open", ETIMEDOUT);
     }
   }
   for (Stream* stream : {&output_, &errors_}) {

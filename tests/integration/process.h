@@ -25,7 +25,8 @@ class Process {
   pid_t pid() const { return pid_; }
   void signal(int number);
   bool is_running();
-  // Waits for the end. Returns the exit code, or 128 + the signal that ended the process.
+  // Waits for the end. Returns the exit code, or 128 + the signal that ended the process. A process that has not ended
+  // within five minutes is killed, and the test fails.
   int wait();
   // Blocks until the process has written a line with `text` to standard error, and returns the line. Returns "" if the
   // process closes the stream without such a line, or does not write it within two minutes.
@@ -44,6 +45,8 @@ class Process {
     std::thread reader;
   };
   void read_all(Stream& stream);
+  // Waits until the process has ended, and returns false if it has not within five minutes. waitpid() must follow.
+  bool ends_in_time() const;
   std::string wait_for_line(const Stream& stream, const std::string& text);
 
   pid_t pid_ = -1;

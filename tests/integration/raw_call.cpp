@@ -5,12 +5,14 @@
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/support/byte_buffer.h>
 
+#include "integration/peer.h"
+
 namespace isofield::integration_test {
 
 RawAnswer raw_call(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
                    const std::string& message) {
   grpc::GenericStub stub(channel);
-  grpc::ClientContext context;
+  LimitedContext context;
   grpc::CompletionQueue queue;
   // Only one operation runs at a time, so the tag is not needed.
   const auto finish_operation = [&queue] {

@@ -41,7 +41,7 @@ class OpenStream {
   }
 
  private:
-  grpc::ClientContext context_;
+  LimitedContext context_;
   std::unique_ptr<grpc::ClientReaderWriter<v1::EvaluateStreamRequest, v1::EvaluateResponse>> stream_;
   v1::EvaluateStreamRequest request_;
 };
@@ -95,7 +95,7 @@ TEST_F(Reader, WhoMeshesADeletedSceneGetsItsMesh) {
   for (const bool replaced : {false, true}) {
     ASSERT_TRUE(ok(other_.put("ball", ball_.scene())));
     const double cell = 0.006;
-    grpc::ClientContext context;
+    LimitedContext context;
     const auto stream = peer_.meshes().Mesh(&context, mesh_request(named("ball"), cell));
     v1::MeshResponse response;
     // The first sign of life shows that the scene is leased.

@@ -9,6 +9,7 @@
 #include "integration/ball.h"
 #include "integration/daemon.h"
 #include "integration/peer.h"
+#include "support/eventually.h"
 #include "support/random_scene.h"
 
 namespace isofield::integration_test {
@@ -41,7 +42,7 @@ TEST(Stream, AnswersKeepTheOrderOfLargeAndSmallMessages) {
   }
   std::vector<v1::EvaluateResponse> responses;
   std::thread writer;
-  grpc::ClientContext context;
+  LimitedContext context;
   const auto stream = peer.fields().EvaluateStream(&context);
   writer = std::thread([&] {
     for (const v1::EvaluateStreamRequest& request : requests) EXPECT_TRUE(stream->Write(request));
@@ -92,9 +93,10 @@ TEST(Stream, CancelledWithMessagesAtWorkItGivesBackWhatItHeld) {
   Peer peer(shared_daemon().address());
   const Ball ball;
   const std::vector<float> xyz = points_around(ball, 1, kPoints);
+  const std::uint64_t bytes_before = peer.info().device_bytes();
   ASSERT_TRUE(ok(peer.put("streamed", ball.scene())));
   for (int i = 0; i < 20; ++i) {
-    grpc::ClientContext context;
+    LimitedContext context;
     const auto stream = peer.fields().EvaluateStream(&context);
     v1::EvaluateStreamRequest request = first_message(ball.scene());
     *request.mutable_scene() = named("streamed");
@@ -103,8 +105,11 @@ TEST(Stream, CancelledWithMessagesAtWorkItGivesBackWhatItHeld) {
     context.TryCancel();
     EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
   }
+  EXPECT_GT(peer.info().device_bytes(), bytes_before);
   EXPECT_TRUE(ok(peer.remove("streamed")));
-  // The cancelled streams must have ended, and the daemon must serve other calls.
+  // A stream that has not ended holds the scene, and work that has not ended holds its points.
+  EXPECT_TRUE(test_support::eventually([&] { return peer.info().device_bytes() <= bytes_before; }))
+      << peer.info().device_bytes() << " bytes on the device, " << bytes_before << " before the streams";
   expect_serving(shared_daemon().address());
 }
 
@@ -112,7 +117,8 @@ TEST(Stream, NobodyReadsTheAnswersAndOthersAreServed) {
   Peer peer(shared_daemon().address());
   const Ball ball;
   const std::vector<float> xyz = points_around(ball, 1, 65'536);
-  grpc::ClientContext context;
+  const std::uint64_t bytes_before = peer.info().device_bytes();
+  LimitedContext context;
   const auto stream = peer.fields().EvaluateStream(&context);
   EXPECT_TRUE(stream->Write(first_message(ball.scene())));
   std::thread writer([&] {
@@ -122,6 +128,8 @@ TEST(Stream, NobodyReadsTheAnswersAndOthersAreServed) {
   context.TryCancel();
   writer.join();
   EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  EXPECT_TRUE(test_support::eventually([&] { return peer.info().device_bytes() <= bytes_before; }))
+      << peer.info().device_bytes() << " bytes on the device, " << bytes_before << " before the stream";
 }
 
 }  // namespace

@@ -216,7 +216,7 @@ TEST(Surface, WrongRequestsAreRefused) {
   *good.mutable_origins() = points_tensor(std::span<const float>(two));
   *good.mutable_directions() = points_tensor(std::span<const float>(down));
   const auto cast = [&](const v1::CastRaysRequest& request) {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::CastRaysResponse response;
     return stub->CastRays(&context, request, &response);
   };
@@ -251,7 +251,7 @@ TEST(Surface, WrongRequestsAreRefused) {
   v1::SliceRequest plane;
   *plane.mutable_scene() = inlined(two_balls());
   const auto slice = [&](const v1::SliceRequest& request) {
-    grpc::ClientContext context;
+    LimitedContext context;
     v1::SliceResponse response;
     return stub->Slice(&context, request, &response);
   };
@@ -284,7 +284,7 @@ TEST(Surface, WrongRequestsAreRefused) {
   *points.mutable_scene() = inlined(two_balls());
   *points.mutable_points() = points_tensor(std::span<const float>(two));
   points.set_tolerance(0);
-  grpc::ClientContext context;
+  LimitedContext context;
   v1::ProjectPointsResponse response;
   expect_refused(stub->ProjectPoints(&context, points, &response), StatusCode::INVALID_ARGUMENT, {"tolerance = 0"});
 }
