@@ -17,11 +17,12 @@
 namespace isofield::gpu_test {
 namespace {
 
-void expect_no_intersections(const v1::Scene& scene, const engine::MeshRequest& request, const std::string& what) {
+// Returns whether the mesh has triangles.
+bool expect_no_intersections(const v1::Scene& scene, const engine::MeshRequest& request, const std::string& what) {
   static engine::Mesher mesher(device(), kernels(), workers());
   const auto mesh = mesher.mesh(*resident(scene), request, {});
-  ASSERT_TRUE(mesh.ok()) << what << ": " << mesh.status();
-  ASSERT_FALSE(mesh->triangles.empty()) << what << ", cell " << request.cell_size;
+  EXPECT_TRUE(mesh.ok()) << what << ": " << mesh.status();
+  if (!mesh.ok() || mesh->triangles.empty()) return false;
   const test_support::MeshReport report = test_support::check_mesh(mesh->positions, mesh->triangles);
   EXPECT_TRUE(report.sound()) << what << ": " << report.text();
   EXPECT_EQ(report.zero_area, 0u) << what;
@@ -30,6 +31,7 @@ void expect_no_intersections(const v1::Scene& scene, const engine::MeshRequest& 
             << " pairs that meet\n";
   EXPECT_TRUE(pairs.empty()) << what << ", cell " << request.cell_size << ": " << pairs.size()
                              << " pairs of triangles meet";
+  return true;
 }
 
 TEST(MeshIntersections, HaveNoneInTheFigures) {
@@ -41,20 +43,25 @@ TEST(MeshIntersections, HaveNoneInTheFigures) {
     text << file.rdbuf();
     const v1::Scene scene = test_support::scene_message(text.str());
     const double iso = resident(scene)->tape().law == operators::Law::kSigned ? 0 : 0.5;
-    for (const double cell : {0.11, 0.03}) expect_no_intersections(scene, {.cell_size = cell, .iso = iso}, figure);
+    for (const double cell : {0.11, 0.03}) {
+      EXPECT_TRUE(expect_no_intersections(scene, {.cell_size = cell, .iso = iso}, figure)) << figure << " is empty";
+    }
   }
 }
 
 TEST(MeshIntersections, HaveNoneInRandomScenes) {
+  int meshes = 0;
   for (const int nodes : {3, 10, 40, 120}) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       const v1::Scene scene = test_support::random_scene(50 * nodes + seed, {.nodes = nodes});
       for (const double cell : {0.31, 0.11}) {
-        expect_no_intersections(scene, {.cell_size = cell, .bounds = blobtree::Box{{-2, -2, -2}, {2, 2, 2}}},
-                                absl::StrCat(nodes, " nodes, seed ", seed));
+        meshes += expect_no_intersections(scene, {.cell_size = cell, .bounds = blobtree::Box{{-2, -2, -2}, {2, 2, 2}}},
+                                          absl::StrCat(nodes, " nodes, seed ", seed));
       }
     }
   }
+  // Some random scenes cut everything away.
+  EXPECT_GE(meshes, 36) << "of 48";
 }
 
 }  // namespace

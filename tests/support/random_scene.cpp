@@ -20,7 +20,8 @@ void set_point(google::protobuf::RepeatedField<double>* out, const blobtree::dve
 
 class SceneMaker {
  public:
-  SceneMaker(std::uint64_t seed, const RandomSceneOptions& options) : random_(seed), options_(options) {}
+  SceneMaker(std::uint64_t seed, const RandomSceneOptions& options)
+      : random_(seed), random_of_late_kinds_(~seed), options_(options) {}
 
   v1::Scene make() {
     const int primitives = std::max(1, static_cast<int>(options_.nodes * random_.number(0.5, 0.7)));
@@ -46,6 +47,7 @@ class SceneMaker {
     int instances = 1;   // primitives below; a shared one counts at every use
     int transforms = 0;  // the largest number on any way down to a primitive
     bool is_signed = false;
+    bool is_bounded = true;
   };
 
   int add(Part part) {
@@ -81,6 +83,7 @@ class SceneMaker {
         s.set_radius_a(length());
         s.set_radius_b(random_.chance(0.4) ? s.radius_a() : length());
         s.set_range(length());
+        if (late_chance(0.2) && !std::equal(s.a().begin(), s.a().end(), s.b().begin())) make_cone(node);
         break;
       }
       case 2: {
@@ -117,6 +120,32 @@ class SceneMaker {
       }
     }
     add(std::move(part));
+  }
+
+  bool late_chance(double probability) { return random_of_late_kinds_.chance(probability); }
+
+  // Makes a segment a cone of the same numbers.
+  static void make_cone(v1::Node& node) {
+    const v1::Segment s = node.segment();
+    v1::Cone& c = *node.mutable_cone();
+    *c.mutable_a() = s.a();
+    *c.mutable_b() = s.b();
+    c.set_radius_a(s.radius_a());
+    c.set_radius_b(s.radius_b());
+    c.set_range(s.range());
+  }
+
+  // Adds a half-space that nothing refers to, and returns its place. The node is not added to `unused_`.
+  int add_half_space() {
+    Part part;
+    part.is_bounded = false;
+    v1::HalfSpace& h = *part.node.mutable_half_space();
+    set_point(h.mutable_point(), random_of_late_kinds_.point(-0.5, 0.5));
+    set_point(h.mutable_normal(), random_of_late_kinds_.point(0.1, 1));
+    h.set_range(random_of_late_kinds_.number(0.1, 0.8));
+    const int place = add(std::move(part));
+    unused_.pop_back();
+    return place;
   }
 
   // Makes a signed primitive, or now and then a positive one made signed. The node is not added to `unused_`.
@@ -186,6 +215,10 @@ class SceneMaker {
       }
       case 3:
         options_.cuts&& random_.chance(0.5) ? void(node.mutable_max()) : void(node.mutable_min());
+        if (node.has_min() && late_chance(0.4)) {
+          node.mutable_smooth_min()->set_radius(random_of_late_kinds_.number(0.1, 0.8));
+          if (options_.cuts && late_chance(0.4)) node.mutable_smooth_min()->set_form(v1::DIFFERENCE);
+        }
         break;
       case 4: {
         v1::SuperellipticBlend& s = *node.mutable_superelliptic();
@@ -272,7 +305,8 @@ class SceneMaker {
     while (static_cast<int>(children.size()) < count && !unused_.empty()) children.push_back(take_unused());
     if (options_.sharing && random_.chance(0.15)) {
       const int other = random_.integer(0, static_cast<int>(parts_.size()) - 1);
-      int instances = parts_[other].is_signed ? kMostInstances : parts_[other].instances;
+      const bool is_shareable = !parts_[other].is_signed && parts_[other].is_bounded;
+      int instances = is_shareable ? parts_[other].instances : kMostInstances;
       for (const int child : children) instances += parts_[child].instances;
       if (instances <= kMostInstances / 4) {
         children.push_back(other);
@@ -334,6 +368,9 @@ class SceneMaker {
       part.node.mutable_difference();
     } else {
       part.node.mutable_max();
+    }
+    if ((part.node.has_min() || part.node.has_difference()) && late_chance(0.3)) {
+      part.children.push_back(add_half_space());
     }
     add(std::move(part));
   }
@@ -407,6 +444,8 @@ class SceneMaker {
   }
 
   Random random_;
+  // Draws cones, half-spaces and smooth minima, so that a scene without them stays the same whether or not they exist.
+  Random random_of_late_kinds_;
   RandomSceneOptions options_;
   std::vector<Part> parts_;
   std::vector<int> unused_;  // parts that nothing refers to

@@ -45,9 +45,9 @@ struct RandomSceneOptions {
   bool sharing = true;
 };
 
-// Makes a scene from a seed. All kinds of nodes but half_space, cone, smooth_min and custom appear, and all openings
-// (presets, changed presets, custom) and silhouettes, given enough nodes. The nodes lie in any order, and some have
-// names.
+// Makes a scene from a seed. All kinds of nodes but custom appear, and all openings (presets, changed presets, custom)
+// and silhouettes, given enough nodes. A half-space only cuts, so that the solid is bounded. The nodes lie in any
+// order, and some have names.
 v1::Scene random_scene(std::uint64_t seed, const RandomSceneOptions& options = {});
 
 }  // namespace isofield::test_support

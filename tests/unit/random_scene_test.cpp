@@ -48,7 +48,7 @@ TEST(RandomScene, EveryKindOfNodeAppears) {
     }
     for (const std::string& r : references) shared |= references.count(r) > 1;
   }
-  EXPECT_EQ(kinds.size(), 24u);  // all but half_space, cone, smooth_min and custom
+  EXPECT_EQ(kinds.size(), 27u);  // all but custom
   EXPECT_EQ(presets.size(), 4u);
   EXPECT_TRUE(bulge && custom && shear && shared);
 }
