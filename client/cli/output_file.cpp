@@ -62,7 +62,8 @@ absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(const std::string
   std::string temporary = path + ".XXXXXX";
   // The signal handler must know the name before the file exists, so mkostemp() writes it into the handler's array.
   const bool is_short = temporary.size() < sizeof(pending_path);
-  char* const name = is_short ? std::strcpy(pending_path, temporary.c_str()) : temporary.data();
+  if (is_short) std::memcpy(pending_path, temporary.c_str(), temporary.size() + 1);
+  char* const name = is_short ? pending_path : temporary.data();
   is_pending = is_short ? 1 : 0;
   const int descriptor = ::mkostemp(name, O_CLOEXEC);
   if (descriptor < 0) {

@@ -257,13 +257,14 @@ TEST(Conformance, PartialsOfGoldenGradientBlendsAreDifferencesOfExactValues) {
       const std::vector<double> x(rows.begin() + static_cast<std::ptrdiff_t>(3 * i),
                                   rows.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
       const operators::Blend e = operators::gradient_blend(x[0], x[1], x[2], silhouette);
-      differences.compare(x, {e.g1, e.g2, e.gt}, &device[4 * i + 1], [&](std::size_t k, double moved) {
-        double y[] = {x[0], x[1], x[2]};
-        y[k] = moved;
-        // The operator ends at fields of 0 and at 0 and 45 degrees.
-        const bool is_within = moved >= 0 && (k < 2 || moved <= std::numbers::pi / 4);
-        return is_within ? operators::gradient_blend(y[0], y[1], y[2], silhouette).g : std::nan("");
-      });
+      differences.compare(x, {e.g1, e.g2, e.gt}, &device[4 * i + 1],
+                          [&, &silhouette = silhouette](std::size_t k, double moved) {
+                            double y[] = {x[0], x[1], x[2]};
+                            y[k] = moved;
+                            // The operator ends at fields of 0 and at 0 and 45 degrees.
+                            const bool is_within = moved >= 0 && (k < 2 || moved <= std::numbers::pi / 4);
+                            return is_within ? operators::gradient_blend(y[0], y[1], y[2], silhouette).g : std::nan("");
+                          });
     }
     differences.report(file);
     EXPECT_LE(differences.exact(), 1e-4);

@@ -128,7 +128,7 @@ void expect_creases(const v1::Scene& scene, double cell, const std::vector<Side>
       worst = std::max(worst, distance);
       off += distance > 0.005;
     }
-    const auto inscribed = [&](const Face& face, const Side& side) {
+    const auto inscribed = [&, &ends = ends](const Face& face, const Side& side) {
       std::array<dvec3, 3> corners = face.corners;
       for (int i = 0; i < 3; ++i) {
         const bool is_end = face.vertices[i] == ends.first || face.vertices[i] == ends.second;

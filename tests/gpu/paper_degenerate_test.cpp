@@ -101,7 +101,7 @@ TEST(PaperDegenerate, IsFiniteAndTheReferences) {
         for (std::size_t i = 0; i < points.size(); ++i) {
           const dvec3& p = points[i];
           const reference::Sample s = exact.evaluate(p);
-          const auto where = [&] {
+          const auto where = [&, &opening_name = opening_name, &silhouette_name = silhouette_name] {
             return std::string(pair.name) + ", " + opening_name + ", " + silhouette_name + " at " +
                    std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
           };

@@ -55,7 +55,7 @@ bool Mutex::TryLock() {
   return is_locked;
 }
 
-// Those who wait give the mutex up and take it again.
+// A thread that waits gives the mutex up, and takes it again.
 void CondVar::Wait(Mutex* mutex) {
   static auto* const wait = original<::Wait>(ISOFIELD_ABSEIL "7CondVar4WaitEPNS0_5MutexE");
   __tsan_release(mutex);

@@ -239,9 +239,10 @@ absl::StatusOr<Drawing> plot_opening(const PlotArguments& arguments, const Chose
   }
   std::vector<OpeningCurve> curves;
   const auto add = [&](const std::string& name, const v1::EvaluateOperatorRequest& request) -> absl::Status {
-    auto curve = sample_opening(name, request, client);
-    if (curve.ok()) curves.push_back(*std::move(curve));
-    return curve.status();
+    absl::StatusOr<OpeningCurve> curve = sample_opening(name, request, client);
+    if (!curve.ok()) return curve.status();
+    curves.push_back(*std::move(curve));
+    return absl::OkStatus();
   };
   absl::Status status;
   if (!arguments.op.parameters.empty()) {

@@ -33,7 +33,7 @@ std::vector<Color> shades(const OperatorPlot& plot, const std::vector<float>& g)
   colors.reserve(g.size());
   for (int j = plot.side; j-- > 0;) {
     for (int i = 0; i < plot.side; ++i) {
-      const float value = g[static_cast<std::size_t>(j * plot.side + i)];
+      const float value = g[static_cast<std::size_t>(j) * plot.side + i];
       colors.push_back((value > plot.surface) == plot.inside_above ? kInside : kOutside);
     }
   }

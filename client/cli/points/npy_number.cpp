@@ -17,7 +17,7 @@ double as(const char* bytes) {
 
 // Reads a float16 (IEEE 754 binary16).
 double read_half(const char* bytes) {
-  std::uint16_t bits;
+  std::uint16_t bits = 0;
   std::memcpy(&bits, bytes, sizeof(bits));
   const int exponent = bits >> 10 & 31;
   const int fraction = bits & 1023;

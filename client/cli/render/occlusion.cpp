@@ -67,8 +67,8 @@ class Occlusion {
   }
   glm::vec3 position(int x, int y, float inverse_depth) const {
     const float depth = 1 / inverse_depth;
-    return {(static_cast<float>(x - seen_.width / 2) + 0.5f) * step_x_ * depth,
-            (static_cast<float>(seen_.height / 2 - y) - 0.5f) * step_y_ * depth, -depth};
+    return {(static_cast<float>(x) + 0.5f - 0.5f * static_cast<float>(seen_.width)) * step_x_ * depth,
+            (0.5f * static_cast<float>(seen_.height) - static_cast<float>(y) - 0.5f) * step_y_ * depth, -depth};
   }
 
   const Visibility& seen_;

@@ -76,9 +76,7 @@ class SrgbTable {
       bytes_[i] = static_cast<std::uint8_t>(std::lround(255 * srgb));
     }
   }
-  std::uint8_t operator()(float linear) const {
-    return bytes_[static_cast<int>(std::clamp(linear, 0.0f, 1.0f) * kSteps + 0.5f)];
-  }
+  std::uint8_t operator()(float linear) const { return bytes_[std::lround(std::clamp(linear, 0.0f, 1.0f) * kSteps)]; }
 
  private:
   static constexpr int kSteps = 8192;

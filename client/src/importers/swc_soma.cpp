@@ -39,9 +39,7 @@ class SomaFinder {
 
  private:
   void decide(Soma& soma) {
-    if (is_at_one_place(soma)) {
-      soma.form = SomaForm::kSphere;
-    } else if (soma.members.size() == 3 && is_sphere_of_three(soma)) {
+    if (is_at_one_place(soma) || (soma.members.size() == 3 && is_sphere_of_three(soma))) {
       soma.form = SomaForm::kSphere;
     } else if (is_outline(soma)) {
       soma.form = SomaForm::kContours;
