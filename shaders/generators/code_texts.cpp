@@ -88,7 +88,7 @@ void append_specialisation(std::string& text, std::size_t operand_words, std::si
   absl::StrAppend(&text, "#endif\n\n");
 }
 
-void append_includes(std::string& text, const char* folder, std::set<std::string> files) {
+void append_includes(std::string& text, const char* folder, const std::set<std::string>& files) {
   for (const std::string& file : files) {
     if (!file.empty()) absl::StrAppend(&text, "#include \"", folder, file, ".glsl\"\n");
   }

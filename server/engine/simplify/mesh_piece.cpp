@@ -68,7 +68,7 @@ class Surface {
   // Calls visit(sides) for each edge, with the half-edges that lie on it.
   template <class Visit>
   void for_edges(const Visit& visit) const {
-    for (std::size_t begin = 0, end; begin < sides_.size(); begin = end) {
+    for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end) {
       end = begin + 1;
       while (end < sides_.size() && sides_[end].edge == sides_[begin].edge) ++end;
       visit(std::span(sides_).subspan(begin, end - begin));

@@ -68,7 +68,8 @@ class Tracer {
     const std::uint32_t sample = edge / 2;
     const float a = values_[sample], b = values_[sample + (edge % 2 ? counts_[0] : 1)];
     const float part = static_cast<float>((double{level_} - a) / (double{b} - a));
-    const auto i = static_cast<float>(sample % counts_[0]), j = static_cast<float>(sample / counts_[0]);
+    const std::uint32_t column = sample % counts_[0], row = sample / counts_[0];
+    const auto i = static_cast<float>(column), j = static_cast<float>(row);
     lines_.points.push_back(edge % 2 ? i : i + part);
     lines_.points.push_back(edge % 2 ? j + part : j);
   }
