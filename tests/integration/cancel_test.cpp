@@ -42,10 +42,21 @@ class Cancel : public testing::Test {
 
   std::uint64_t device_bytes() { return peer_.info().device_bytes(); }
 
-  // Waits until the call has ended on the server, and checks that it was cut off: its work or its writing was stopped,
-  // and its answer has no summary, which would give the number of cells.
-  static void expect_cut_off(const std::string& method, const std::string& scene) {
-    const std::string line = daemon_->process().wait_for_error_line(method + " scene=" + scene);
+  // Waits until the call has ended on the server, and returns its line of the log. A connection without traffic may
+  // pass a cancellation on seconds later, so other calls keep it busy in the meantime.
+  std::string expect_ended(const std::string& method, const std::string& scene) {
+    const std::string call = method + " scene=" + scene;
+    const auto has_ended = [&] {
+      device_bytes();
+      return daemon_->process().errors().find(call) != std::string::npos;
+    };
+    EXPECT_TRUE(test_support::eventually(has_ended)) << call << " goes on:\n" << daemon_->process().errors();
+    return daemon_->process().wait_for_error_line(call);
+  }
+  // Checks, too, that the call was cut off: its work or its writing was stopped, and its answer has no summary, which
+  // would give the number of cells.
+  void expect_cut_off(const std::string& method, const std::string& scene) {
+    const std::string line = expect_ended(method, scene);
     const std::regex cut_off(", (CANCELLED: the request was cancelled|(CANCELLED: )?the client is gone)$");
     EXPECT_TRUE(std::regex_search(line, cut_off)) << "'" << line << "' in:\n" << daemon_->process().errors();
     EXPECT_EQ(line.find(" cells="), std::string::npos) << line;

@@ -55,8 +55,9 @@ absl::Status write_slice(const Slice& slice, const SliceArguments& arguments, Ou
   }
   std::vector<double> along_u, along_v;
   for (std::size_t n = 0; n < slice.values.size(); ++n) {
-    along_u.push_back(spacing[0] * static_cast<double>(n % slice.counts[0]));
-    along_v.push_back(spacing[1] * static_cast<double>(n / slice.counts[0]));
+    const std::uint64_t column = n % slice.counts[0], row = n / slice.counts[0];
+    along_u.push_back(spacing[0] * static_cast<double>(column));
+    along_v.push_back(spacing[1] * static_cast<double>(row));
   }
   Table table;
   table.add("u", std::span<const double>(along_u));
