@@ -26,7 +26,7 @@
 namespace isofield::engine {
 
 // Owns the device, the compiled kernels, the volumes, and the evaluators and the mesher that work on them. Thread-safe.
-// Scenes that it has made resident must not outlive it.
+// Scenes that it has made resident must not outlive it. `tier_two` is about kernels that are written for one structure.
 class Engine {
  public:
   static absl::StatusOr<std::unique_ptr<Engine>> create(const gpu::DeviceOptions& options,
@@ -46,7 +46,8 @@ class Engine {
 
   VolumeCache& volumes() { return volumes_; }
 
-  // Both put a batch of points into the queue that all requests share. Errors are those of EvaluationQueue.
+  // Both put a batch of points into the queue that all requests share; evaluate() waits for the results, and submit()
+  // calls `done` when they are there. Errors are those of compiling the kernels and of EvaluationQueue.
   absl::Status evaluate(const PointBatch& batch);
   void submit(PointBatch batch, EvaluationQueue::Done done);
 
@@ -61,6 +62,7 @@ class Engine {
  private:
   Engine(std::unique_ptr<gpu::Device> device, const blobtree::SceneLimits& limits, const QueueOptions& queue,
          const TierTwoOptions& tier_two, const KernelOptions& kernels);
+  // Compiles the kernels that the batch needs and that are missing.
   absl::Status prepare(const PointBatch& batch);
 
   std::unique_ptr<gpu::Device> device_;

@@ -1,6 +1,6 @@
-// Turns handlers of methods into functions that gRPC calls: requests are admitted, exceptions end, and statuses become
-// gRPC's. Calls that are not served by serve(), such as Evaluate and TrackMesh, use finish() and base::guarded()
-// themselves.
+// Turns handlers of methods into functions that gRPC calls: each request must first be admitted, an exception becomes
+// an error, and the handler's status becomes a status of gRPC. Calls that are not served by serve(), such as Evaluate
+// and TrackMesh, use finish() and base::guarded() themselves.
 //
 // A handler is a function that returns absl::Status. It decodes a request, asks its Call for room for the work, calls
 // down, and encodes the answer.

@@ -1,5 +1,5 @@
 // Computes the opening angle at which the blend of two fields begins at a point that a user picks on the surface of the
-// first one ([G] section 4).
+// first one (Gourmel et al. 2013, section 4).
 #pragma once
 
 #include <absl/status/statusor.h>

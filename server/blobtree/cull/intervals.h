@@ -19,16 +19,16 @@ Interval complement(const Interval& i, bool is_signed);
 // and says whether they are exchanged. The bounds hold for the device's float32 results, too.
 Interval binary_interval(Opcode op, const Operation& o, const Mode& mode, Interval a, Interval b);
 
-// Returns bounds of an operator that takes all its operands at once. `mask` has a bit for each operand that is left,
-// and `operands` has their intervals in order.
+// Returns bounds of a joint operator, which is one that takes all its operands at once. `mask` has a bit for each
+// operand that is left, and `operands` has their intervals in order.
 Interval joint_interval(const Operation& o, const Mode& mode, std::uint32_t mask, std::vector<Interval> operands);
 
 // Returns those of the operands in `mask` that can make a difference to the result of a joint operator.
 std::uint32_t active_operands(const Operation& o, const Mode& mode, std::uint32_t mask, std::vector<Interval> operands);
 
-// Returns the operand that alone makes the result, which is then that operand over its weight, or -1 if both may. 0 is
-// the first operand of the operator and 1 the second. `a` and `b` are as for binary_interval(). The fields must be
-// signed.
+// Returns which operand alone determines the result of an operator of two operands: 0 for the first, 1 for the second,
+// or -1 if both may matter. The result is then that operand divided by its weight. `a` and `b` are as for
+// binary_interval(). The fields must be signed.
 int lone_operand(const Operation& o, const Mode& mode, Interval a, Interval b);
 
 }  // namespace isofield::blobtree

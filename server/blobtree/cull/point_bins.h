@@ -32,11 +32,11 @@ struct PointBins {
   std::vector<Instruction> code;
 };
 
-// Sorting points is not worth while for tapes of at most this many instructions.
+// Sorting points takes longer than it saves for tapes of at most this many instructions.
 inline constexpr std::size_t kUnsortedInstructions = 12;
 
 // Sorts the points into groups. `xyz` holds 3 numbers for each point; numbers that are not finite are taken for 0. All
-// points are one group if the tape is not worth sorting for.
+// points are one group if sorting would not save time.
 PointBins bin_points(const Tape& tape, std::span<const float> xyz);
 
 }  // namespace isofield::blobtree

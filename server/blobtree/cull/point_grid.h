@@ -41,8 +41,9 @@ class PointGrid {
   std::array<float, 3> origin_{};
   float per_step_ = 0;
   std::array<std::uint32_t, 3> counts_{};
-  std::vector<std::uint32_t> places_;  // index in the list of each brick of the grid, x fastest; bricks_ if it has none
-  std::uint32_t bricks_ = 0;           // number of bricks in the list
+  // For each brick of the grid, x fastest: its index in the list, or bricks_ if it is not in the list.
+  std::vector<std::uint32_t> places_;
+  std::uint32_t bricks_ = 0;  // number of bricks in the list
 };
 
 }  // namespace isofield::blobtree

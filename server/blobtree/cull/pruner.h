@@ -1,6 +1,6 @@
 // Pruner prunes a tape to what is alive in a box: leaves whose field is 0 there drop out, and so do operators that are
-// left with one operand. The pruned tape gives the same bits as the whole one at every point of the box, because every
-// operator returns its other operand unchanged if one is 0.
+// left with one operand. The pruned tape gives the same bits as the whole one at every point of the box: where one
+// operand is 0, a union is the other operand unchanged, and the results of the other forms are known as well.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 // Mesher makes closed triangle meshes of a scene's surface on the device, by dual contouring with one vertex for each
-// patch of a cell. It works only on the bricks that the surface may cross, so that memory and time follow the surface
-// and not the box. A crease comes out sharp if it turns by 25 degrees or more and crosses the cell that its vertex lies
-// in.
+// patch, which is a connected piece of the surface within a cell. It works only on the bricks that the surface may
+// cross, so that memory and time follow the surface and not the box. A crease comes out sharp if it turns by 25 degrees
+// or more and crosses the cell that its vertex lies in.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -23,19 +23,19 @@
 
 namespace isofield::engine {
 
-// Thread-safe. Owns a cache of meshes. CANCELLED: callbacks.cancelled says so.
+// Thread-safe. Owns a cache of meshes. Its functions return CANCELLED if callbacks.cancelled returns true.
 class Mesher {
  public:
   Mesher(gpu::Device& device, KernelCache& kernels, base::Workers& workers)
       : device_(device), kernels_(kernels), workers_(workers) {}
 
   // Returns the mesh of a request; the same request gives the same bytes. RESOURCE_EXHAUSTED: as for surface_bricks(),
-  // or a buffer would be too large. If `shells` is not null, it receives the counts of the whole mesh, or nothing if
+  // or a buffer would be too large. If `shells` is not null, it receives the numbers of bodies and voids, or nothing if
   // the request asks for a part.
   absl::StatusOr<Mesh> mesh(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,
                             std::optional<ShellCounts>* shells = nullptr);
 
-  // The same by bricks, which are handed over in order of place as they are made. A failure of `deliver` ends the work.
+  // Makes the same mesh by bricks, and hands them to `deliver` in order of place. A failure of `deliver` ends the work.
   // A brick has the same bytes whatever part it is made with.
   using Deliver = std::function<absl::Status(const MeshCells&)>;
   absl::Status cells(const ResidentScene& scene, const MeshRequest& request, const MeshCallbacks& callbacks,

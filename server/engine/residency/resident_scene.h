@@ -34,9 +34,9 @@ class ResidentScene : public std::enable_shared_from_this<ResidentScene> {
   // Returns all bindings of a kernel that runs tapes pruned from this scene's: the scene's buffers, `code`, which holds
   // the tapes, and the kernel's own bindings.
   gpu::Commands::Bindings bindings(const gpu::Buffer& code, const gpu::Commands::Bindings& own) const;
-  // Volumes that it shares with other scenes count in full.
+  // Returns the bytes that the scene takes on the device. Volumes that it shares with other scenes count in full.
   std::uint64_t device_bytes() const;
-  // The same without volumes.
+  // Returns these bytes without volumes.
   std::uint64_t own_bytes() const { return leaves_->size() + operations_.size() + tables_.size(); }
   bool shares_leaves_with(const ResidentScene& other) const { return leaves_ == other.leaves_; }
 
@@ -48,7 +48,7 @@ class ResidentScene : public std::enable_shared_from_this<ResidentScene> {
   blobtree::ParameterBuffers parameters_;
   std::shared_ptr<const gpu::Buffer> leaves_;
   gpu::Buffer operations_, tables_;
-  std::vector<VolumeLease> volumes_;  // by slot
+  std::vector<VolumeLease> volumes_;  // in the order of the tape's volume slots
 };
 
 using SceneLease = std::shared_ptr<const ResidentScene>;

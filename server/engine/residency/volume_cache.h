@@ -1,5 +1,5 @@
-// Keeps operators as volumes, 3-D tables of their values, on the device ([G] section 4.3). A volume is built on first
-// use, shared by all scenes that have the same operator, and freed with the last of them.
+// Keeps operators as volumes, 3-D tables of their values, on the device (Gourmel et al. 2013, section 4.3). A volume is
+// built on first use, shared by all scenes that have the same operator, and freed with the last of them.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -32,7 +32,8 @@ class Volume {
 
   gpu::Buffer buffer_;
   int size_;
-  std::shared_ptr<const operators::SampledVolume> samples_;  // the samples that it was made from; null: a formula
+  // The samples that the volume was made from; null if it was made from a formula.
+  std::shared_ptr<const operators::SampledVolume> samples_;
 };
 
 using VolumeLease = std::shared_ptr<const Volume>;
