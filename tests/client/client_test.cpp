@@ -251,7 +251,8 @@ TEST_F(ClientTest, EvaluatesGrids) {
   EXPECT_EQ(grid->values[0], 14);
   EXPECT_EQ(grid->values[23], 1 + 1.5f + 2 * 2.5f + 3 * 5);
   for (std::size_t n = 0; n < 24; ++n) {
-    const auto i = static_cast<float>(n % 4), j = static_cast<float>(n / 4 % 3), k = static_cast<float>(n / 12);
+    const std::size_t row = n / 4 % 3, layer = n / 12;
+    const auto i = static_cast<float>(n % 4), j = static_cast<float>(row), k = static_cast<float>(layer);
     EXPECT_EQ(grid->values[n], 1 + i / 2 + 2 * (2 + j / 4) + 3 * (3 + 2 * k)) << n;
   }
   EXPECT_EQ(server_.max_answer_bytes, 64u << 20);

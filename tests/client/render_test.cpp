@@ -23,7 +23,7 @@ Box covered(const Visibility& seen) {
   Box box;
   for (int y = 0; y < seen.height; ++y) {
     for (int x = 0; x < seen.width; ++x) {
-      if (seen.inverse_depth[static_cast<std::size_t>(y * seen.width + x)] == 0) continue;
+      if (seen.inverse_depth[static_cast<std::size_t>(y) * seen.width + x] == 0) continue;
       box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x), std::max(box.y1, y)};
     }
   }

@@ -37,7 +37,7 @@ std::string words(double number) {
 
 // Describes a piece, such as "n2 segment (0 0 0) 2 to (9 0 0) 1". The place of a transformed shape is its translation.
 std::string describe(const v1::Scene& scene, const v1::Node& node) {
-  std::string text = node.name();
+  const std::string& text = node.name();
   if (node.has_transform()) {
     const Numbers& matrix = node.transform().matrix();
     const int child = std::stoi(node.transform().child().substr(1));

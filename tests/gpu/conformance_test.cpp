@@ -24,7 +24,6 @@
 namespace isofield::gpu_test {
 namespace {
 
-using operators::Kind;
 using operators::Law;
 using operators::Operator;
 using reference::FieldState;

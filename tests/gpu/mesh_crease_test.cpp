@@ -162,14 +162,14 @@ void expect_creases(const v1::Scene& scene, double cell, const std::vector<Side>
   EXPECT_NEAR(total, crease_length, 0.01 * crease_length);
 }
 
-Side plane(dvec3 n, double distance) {
+Side plane(const dvec3& n, double distance) {
   const double inverse = 1 / length(n);
   return [=](const dvec3& p) { return dot(n, p) * inverse - distance; };
 }
-Side ball(dvec3 centre, double radius, double sign = 1) {
+Side ball(const dvec3& centre, double radius, double sign = 1) {
   return [=](const dvec3& p) { return sign * (length(p - centre) - radius); };
 }
-std::vector<Side> box_sides(dvec3 centre, double half) {
+std::vector<Side> box_sides(const dvec3& centre, double half) {
   std::vector<Side> sides;
   for (const dvec3& n : {dvec3{1, 0, 0}, dvec3{0, 1, 0}, dvec3{0, 0, 1}}) {
     sides.push_back(plane(n, dot(n, centre) + half));

@@ -69,7 +69,7 @@ std::vector<Case> cases() {
     const std::string suffix = form == Form::kUnion          ? ""
                                : form == Form::kIntersection ? " intersection"
                                                              : " difference";
-    const auto add = [&](std::string name, Operator o, std::size_t operands = 2, double tolerance = 3e-6) {
+    const auto add = [&](const std::string& name, Operator o, std::size_t operands = 2, double tolerance = 3e-6) {
       const bool has_all_forms = o.kind() == Kind::kClean || (o.kind() == Kind::kBt2 && !o.has_angular_ranges());
       if (few_kernels() && form != Form::kUnion && !has_all_forms) return;
       o.form = form;

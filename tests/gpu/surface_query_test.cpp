@@ -18,7 +18,6 @@ namespace {
 using blobtree::dvec3;
 using engine::Projections;
 using engine::RayHits;
-using engine::RayRequest;
 
 engine::FieldEvaluator& fields() {
   static engine::FieldEvaluator evaluator(device(), kernels(), workers());

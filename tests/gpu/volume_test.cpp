@@ -77,7 +77,7 @@ std::vector<Blend> look_up(const std::vector<Float4>& arguments, const engine::V
       kernels().get(volume ? shaders::kOperatorVolumeProbe : shaders::kOperatorBlendProbe, {.volume_set = volume_set});
   EXPECT_TRUE(kernel.ok()) << kernel.status();
   gpu::Commands::Bindings bindings{{4, &*argument_buffer}, {5, &*result_buffer}};
-  if (volume) bindings.emplace_back(12 + slot, &volume->buffer());
+  if (volume) bindings.push_back({12 + slot, &volume->buffer()});
   const std::array<std::uint32_t, 4> constants{static_cast<std::uint32_t>(arguments.size()), slot,
                                                static_cast<std::uint32_t>(volume ? volume->size() : 0),
                                                continuation == Continuation::kAboutOrigin};
