@@ -116,7 +116,7 @@ class Checker {
               [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.corner < b.corner; });
     Sets fans(corners_.size()), parts(vertex_count_);
     std::int64_t edges = 0;
-    for (std::size_t begin = 0, end; begin < sides.size(); begin = end) {
+    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
       end = begin + 1;
       while (end < sides.size() && sides[end].edge == sides[begin].edge) ++end;
       ++edges;
