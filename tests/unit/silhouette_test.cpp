@@ -10,7 +10,6 @@
 namespace isofield::operators {
 namespace {
 
-using test_support::settled_slope;
 using Kind = Silhouette::Kind;
 
 const Silhouette kSilhouettes[] = {
