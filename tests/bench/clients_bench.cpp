@@ -80,6 +80,7 @@ class EvaluateCaller final : public Caller {
     for (float& x : xyz) x = static_cast<float>(random.number(-1, 1));
     request_.mutable_scene()->set_name("bench");
     request_.set_quantity(v1::VALUE_AND_GRADIENT);
+    request_.set_max_answer_bytes(64 << 20);
     v1::Tensor& tensor = *request_.mutable_points();
     tensor.set_dtype(v1::Tensor::FLOAT32);
     tensor.add_shape(points);
